@@ -46,6 +46,11 @@ def test_a_variant_may_be_named_like_a_number(tmp_path):
     assert yt.house("A").variant(tmp_path / "1e3.yaml").name == "1e3"
 
 
+def test_a_variant_may_be_named_like_a_shipped_house(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert yt.house("B").variant("B", strength=2).path == tmp_path / "B"
+
+
 def test_drawing(tmp_path):
     assert (tmp_path / "b.png") in yt.house("B").draw(tmp_path / "b.png")
 
@@ -72,6 +77,7 @@ def test_motions():
         (lambda: yt.motion(scales=2), "did you mean 'scale'"),
         (lambda: yt.motion(7), "motion 7: must be"),
         (lambda: yt.motion(yt.motion(), seed=3), "leave one of them out"),
+        (lambda: yt.run("A", motion=yt.motion(), seed=3, duration=0), "leave one of them out"),
         (lambda: yt.load_run("/nowhere"), "no finished run"),
     ],
 )

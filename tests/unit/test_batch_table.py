@@ -107,6 +107,11 @@ def test_refused_values(table):
             row.value(column)
 
 
+def test_a_seed_without_an_earthquake(table):
+    with pytest.raises(RunError, match="runs.txt:2, column seed: the column record is none"):
+        table("house record seed\nB none 5\n")[0].options()
+
+
 def test_comma_separated_values(table):
     """CSV as a spreadsheet writes it: byte order mark, quotes, blanks in a value, empty cells for defaults, no line
     end.

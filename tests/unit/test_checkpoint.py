@@ -62,7 +62,7 @@ def test_content_of_files_counts_not_their_place(tmp_path):
         (tmp_path / folder / "base.yaml").write_text(f"extends: A\nmaterials: {{timber: {{density: {density}}}}}\n")
         (tmp_path / folder / "mine.yaml").write_text("extends: base.yaml\n")
         (tmp_path / folder / "one.csv").write_text(letter)
-        return identity(RunOptions(house=str(tmp_path / folder / "mine.yaml"), record=str(tmp_path / folder / "one.csv"), then=f"{tmp_path}/a/one.csv@{factor}"))
+        return identity(RunOptions(house=str(tmp_path / folder / "mine.yaml"), record=str(tmp_path / folder / "one.csv"), then=f"{tmp_path / folder}/one.csv@{factor}"))
 
     one = written("a")
     assert written("b") == one

@@ -5,16 +5,20 @@ convergence is counted.
 import json
 import math
 
+import numpy as np
 import pytest
 from summaries import sample_summary
 import yade.wrapper as yw
 import yade_timber as yt
 from yade import O
-from yade_timber.base.errors import RunError
+from yade_timber.base.errors import InputError, RunError
+from yade_timber.motion import GroundMotion
 from yade_timber.recording import frames
 from yade_timber.recording.summary import Summary
 from yade_timber.run import runner, summary
 from yade_timber.run.options import RunOptions
+from yade_timber.run.plan import planned
+from yade_timber.run.town import TownRun
 from yade_timber.scene.engines import find_engine
 from yade_timber.scene.scenario import Scenario
 from yade_timber.text.english import sentence, unconverged
@@ -56,7 +60,12 @@ def not_a_number():
     O.forces.setPermF(column().id, (math.nan, 0, 0))
 
 
-@pytest.mark.parametrize("change", [too_fast, too_fast_a_spin, not_a_number])
+def no_energy():
+    """Sums of energies overflow."""
+    next(body for body in O.bodies if body.shape.kind == "beam").state.vel = (1e160, 1e160, 1e160)
+
+
+@pytest.mark.parametrize("change", [too_fast, too_fast_a_spin, not_a_number, no_energy])
 def test_results_until_the_failure_are_kept(tmp_path, change):
     error = run_with(tmp_path, change)
     assert "physical range" in error and "\n" not in error
@@ -77,6 +86,34 @@ def test_energy_from_nothing_is_refused(tmp_path):
     assert read(tmp_path)["cut_off"].startswith("contacts and joints have created")
     energies = [sample_summary(energy={"created": created * 100, "input": 100}).energy for created in (0.9e-4, 1.1e-4)]
     assert [bool(summary.created_too_much(energy)) for energy in energies] == [False, True]
+
+
+def test_a_lot_that_fails_ends_alone(tmp_path, monkeypatch):
+    """The other lot has its results. The record of a town is in its axes, not in those of its first lot."""
+    (tmp_path / "town.yaml").write_text("lots:\n  bad: {house: A, x: 0, y: 0, rotation: 90}\n  good: {house: A, x: 30, y: 0}\n")
+    shaking = GroundMotion(0.01, np.outer(np.sin(np.arange(100)), [1.0, 3.0, 0.0]))
+    options = RunOptions(town=str(tmp_path / "town.yaml"), ground_motion=shaking, duration=0.1, out=tmp_path / "out", no_views=True, quiet=True)
+    after = runner.Run.after_chunk
+
+    def failing(run):
+        if run.scenario.name.endswith("bad"):
+            raise runner.PhysicsError("body 3 has left")
+        after(run)
+
+    monkeypatch.setattr(runner.Run, "after_chunk", failing)
+    with pytest.raises(runner.PhysicsError, match="lot bad: body 3 has left"):
+        TownRun(planned(options), options).complete()
+    found = {name: Summary.read(tmp_path / "out" / "lots" / name) for name in ("bad", "good")}
+    assert found["bad"].cut_off and not found["good"].cut_off and found["good"].duration_s == pytest.approx(0.1)
+    assert "Cut off" in (tmp_path / "out" / "houses.csv").read_text()
+    town = frames.load(tmp_path / "out" / frames.NAME).summary.record
+    assert town.pga_gal == found["good"].record.pga_gal != found["bad"].record.pga_gal
+
+
+def test_a_motion_too_long_for_the_summary_is_refused_before_the_run(tmp_path):
+    motion = GroundMotion(0.001, np.ones((2_600_000, 3)))
+    with pytest.raises(InputError, match="at most"):
+        planned(RunOptions(house="A", ground_motion=motion, out=tmp_path))
 
 
 def test_steps_that_do_not_converge_are_counted():

@@ -4,8 +4,10 @@
 import csv
 import io
 import sys
+from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -172,10 +174,15 @@ def test_a_changed_house_file_outdates_its_runs(tmp_path):
 
 
 def test_reason_of_a_run_without_results(finished):
-    """A killed run is not taken for that of another process; an exit status beyond all signals is no signal."""
+    """A killed run is not taken for that of another process; an exit status beyond all signals is no signal. A crash is
+    a failure."""
     _, planned, _ = finished
     assert "stopped" in runs._reason(planned[0]) and str(planned[0].folder) in runs._reason(planned[0])
     assert [driver._signal(status) for status in (0, 1, -9, 139, 255)] == [None, None, "SIGKILL", "SIGSEGV", None]
+    for status, outcome in ((-9, "stopped by SIGKILL"), (139, "failed: crashed (SIGSEGV)")):
+        process = object.__new__(driver._Process)
+        process.task, process.child, process.lock = planned[0], SimpleNamespace(returncode=status), ExitStack()
+        assert process.outcome().startswith(outcome)
 
 
 def complete(options, planned, monkeypatch):

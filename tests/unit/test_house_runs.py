@@ -198,15 +198,16 @@ def test_walls_feel_the_weight_of_a_roof_and_no_thrust(tmp_path, nx, ny, roof, l
 
 def test_damage_before_the_shaking_is_an_event():
     """The ground shakes from 0.5 s on; the entrance leans by 1/14 before. A house without that damage, and damage that
-    comes later, have no event.
+    comes later, have no event. A run that ends before the shaking has it at its end.
     """
     shaking = np.zeros((100, 3))
     shaking[50:, 0] = 1.0
-    for lean, time, events in ((0.0, 0.5, 0), (0.2, 0.3, 0), (0.2, 0.48, 1), (0.2, 0.6, 0)):
+    cases = ((0.0, 0.5, False, 0), (0.2, 0.3, False, 0), (0.2, 0.48, False, 1), (0.2, 0.6, False, 0), (0.2, 0.3, True, 1), (0.2, 0.6, True, 0))
+    for lean, time, last, events in cases:
         model = scenario.build(scenario.Scenario("weight", "A", GroundMotion(0.01, shaking)))
         observed = Observer(model)
         next(b for b in O.bodies if b.shape.name == "entrance.roof").state.pos += (lean, 0, 0)
-        observed.observe(time)
+        observed.observe(time, last)
         texts = [english.event(event) for event in observed.log.events if event.kind == "own_weight"]
         assert texts == ["damaged before the shaking, by its own weight: entrance: peak drift 1/14"] * events
 

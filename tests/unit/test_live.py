@@ -16,6 +16,7 @@ from yade_timber.recording import frames
 from yade_timber.base import lock
 from yade_timber.run import live
 from yade_timber.run.options import RunOptions
+from yade_timber.run.runner import Run
 from yade_timber.scene import scenario
 from yade_timber.scene.engines import find_engine
 
@@ -121,6 +122,35 @@ def test_an_earlier_state(tmp_path):
     wait_for(lambda: not lock.is_locked(tmp_path))
     made = frames.load(tmp_path / frames.NAME)
     assert np.allclose(made.time, np.arange(7) * 0.05) and made.summary.steps == 1500
+
+
+def test_results_before_the_end(tmp_path):
+    """Written twice, frames and samples are those of the whole run, once each; also after checkpoints and a resume."""
+    for name in ("live", "saved"):
+        (tmp_path / name).mkdir()
+    run = begin(tmp_path / "live", 1000)
+    step_to(400)
+    run.write()
+    first = json.loads((tmp_path / "live" / "summary.json").read_text())
+    O.run(run.steps - O.iter)
+    wait_for(lambda: not lock.is_locked(tmp_path / "live"))
+    options = RunOptions(house="A", out=tmp_path / "saved", no_views=True, quiet=True, resume=True, export=tmp_path / "a.json")
+    calm = scenario.Scenario("live", "A", snow_depth=1.0, dt=2e-4, duration=0.2, options={"skip_rest": 0})
+    for stops in ((200, 400), (700, 1000)):  # the second time from the checkpoint
+        (tmp_path / "a.json").unlink(missing_ok=True)
+        run = Run(calm, options)
+        for stop in stops:
+            run.advance(stop)
+            run.take(O.time)
+            run.save()
+            run.write()
+            run.write()
+        assert (tmp_path / "a.json").exists()
+    for folder in ("live", "saved"):
+        made = frames.load(tmp_path / folder / frames.NAME)
+        assert len(set(made.time)) == len(made.time) and len(made.time) == len(made.position)
+        assert np.allclose(made.history.time, np.arange(made.history.samples) * 0.01) and made.history.samples >= 20 and len(set(made.contacts.time)) == len(made.contacts.time)
+    assert first["wall_s"] > 0 and 0.07 < first["duration_s"] < 0.2
 
 
 def test_removed_members(tmp_path):

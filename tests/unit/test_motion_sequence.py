@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
 from yade_timber.motion import GroundMotion, MotionRequest, RecordError, joined, read_motion, write_csv
-from yade_timber.motion.processing import scaled, trim, turned
+from yade_timber.motion.processing import in_axes, scaled, trim, turned
 from yade_timber.motion.sequence import common_step, following, with_then
 from yade_timber.study.batch.table import read_table
 
@@ -42,6 +42,14 @@ def test_parts_of_a_processed_sequence():
     assert [(part.start, part.duration) for part in cut] == pytest.approx([(0.0, 1.0), (6.0, 2.0)])
     assert cut[0].pga_gal == motion(0.01, 300).__class__(0.01, both.acceleration[200:300]).pga_gal and len(trim(both, 5.0).parts) == 1
     assert [part.pga_gal["ew"] for part in side] == pytest.approx([part.pga_gal["ns"] for part in both.parts])
+
+
+def test_parts_of_a_sequence_in_other_axes():
+    """East becomes south, north becomes east."""
+    both = joined([motion(0.01, 50, "a", 1), motion(0.01, 50, "b", 2)], [1.0, 0.5])
+    axes = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1.0]]).T
+    for before, after in zip(both.parts, in_axes(both, axes).parts):
+        assert after.pga_gal == pytest.approx({"ew": before.pga_gal["ns"], "ns": before.pga_gal["ew"], "ud": before.pga_gal["ud"]})
 
 
 def test_different_steps_keep_the_straight_lines_between_samples():

@@ -119,4 +119,4 @@ class House:
         data["name"] = Path(path).stem
         with os_errors(lambda fault: f"{path}: the house file cannot be written: {fault}"):
             write_text(Path(path), f"# House {self.name} with changes\n{house_text(data)}")
-        return House(path)
+        return House(Path(path).absolute())

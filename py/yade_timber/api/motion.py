@@ -46,8 +46,6 @@ def ground_motion(source=SHIPPED, dt=DEFAULT_DT, **processing):
     keywords = read_keywords(MotionRequest, "motion", processing, {"record": "give it as the first argument"})
     request = MotionRequest(**{**keywords, "record": record})
     request.check("motion: {}".format)
-    if measured is not None and request.seed is not None:
-        raise RecordError("motion: seed: a GroundMotion is given; leave one of them out")
     return scaled(request.motion(dt, measured), 1.0 if request.scale is None else request.scale)
 
 

@@ -9,6 +9,7 @@ from .atomic_write import make_folder
 from .errors import os_errors
 
 LOCK = ".lock"
+"""Of the process that computes a run."""
 
 
 def prepare_folder(folder, option):
@@ -19,10 +20,10 @@ def prepare_folder(folder, option):
 
 
 @contextmanager
-def locked(folder):
-    """True while this process alone has the folder; else False. Raises RunError."""
-    with os_errors(lambda fault: f"{folder / LOCK}: cannot be opened: {fault}"):
-        descriptor = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK, 0o666)
+def locked(folder, name=LOCK):
+    """True while this process alone has the lock of that name in a folder; else False. Raises RunError."""
+    with os_errors(lambda fault: f"{folder / name}: cannot be opened: {fault}"):
+        descriptor = os.open(folder / name, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK, 0o666)
     try:
         free = False
         with suppress(BlockingIOError):

@@ -12,7 +12,7 @@ FLAGS = {"yes": True, "true": True, "1": True, "no": False, "false": False, "0":
 KINDS = {int: ("a whole number", Integral), float: ("a number", Real), bool: ("yes or no", bool),
          str: ("a text", (str, Path)), Path: ("a path", (str, Path))}
 """Kind of an option: its name in messages, and the Python types that a keyword may have."""
-BY_SCRIPT = ("house", "quake", "snow", "walls")
+BY_SCRIPT = ("house", "quake", "snow")
 """Options that a run script decides, unless it is house.py or town.py."""
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Town files: houses at places under one ground motion, which reaches them as a wave."""
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -47,11 +47,6 @@ class Lot:
         angle = math.radians(self.rotation)
         c, s = turn[quarters % 4] if rest == 0 else (math.cos(angle), math.sin(angle))
         return np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]], float)
-
-    def motion(self, incoming):
-        """GroundMotion in the axes of the house."""
-        return (incoming if np.array_equal(self.axes, np.eye(3))
-                else replace(incoming, acceleration=incoming.acceleration @ self.axes))
 
     def outline(self, model):
         """(4, 2) corners in the town of the rectangle around the plan of its HouseModel [m]."""

@@ -30,6 +30,15 @@ def turned(motion, angle):
                     f"turned by {angle:g} degrees")
 
 
+def in_axes(motion, axes):
+    """The motion in other axes. axes: (3, 3), their directions as columns"""
+    if np.array_equal(axes, np.eye(3)):
+        return motion
+    acceleration = motion.acceleration @ axes
+    return replace(motion, acceleration=acceleration,
+                   parts=_changed_parts(motion.parts, acceleration, motion.dt, 1.0, 0.0))
+
+
 def round_off(x):
     """Sine or cosine without rounding noise at multiples of a right angle."""
     return float(np.round(x, 15))
@@ -136,9 +145,10 @@ def _fourier(motion, dt):
     return dense[:: ratio.numerator][: last + 1], kept[: last + 1]
 
 
-def interpolation_error(motion):
-    """Largest error of straight lines between the samples, taken half way between them. [fraction of the PGA]"""
-    return resample(motion, 0.5 * motion.dt, "linear")[1]
+def interpolation_error(motion, dt=0.0):
+    """Largest error of straight lines between the samples, taken half way between them [fraction of the PGA]; 0 for a
+    run with a time step dt [s] that is not smaller than the samples'."""
+    return resample(motion, 0.5 * motion.dt, "linear")[1] if motion.dt > dt else 0.0
 
 
 def shaking_window(motion, threshold=0.5):

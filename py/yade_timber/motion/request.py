@@ -69,7 +69,9 @@ class MotionRequest:
 
     def motion(self, dt, measured=None):
         """GroundMotion before `scale`. dt [s]: for `resample`; measured: instead of a record. Raises RecordError."""
-        if measured is None and self.seed is not None:
+        if measured is not None and self.seed is not None:
+            raise RecordError("seed: a GroundMotion is given; leave one of them out")
+        if self.seed is not None:
             measured = synthetic_motion(self.seed)
         first = self._processed(self._read(DEFAULT_RECORD if self.record is None else self.record) if measured is None
                                 else turned(measured, self.azimuth or 0.0), dt)

@@ -111,9 +111,9 @@ class DamageSurvey:
         return ~joined[self._columns]
 
     def count_columns(self, state):
-        """The part `columns` of the summary; loose ones that have not fallen."""
+        """The part `columns` of the summary; loose ones that have not fallen, without those from the start."""
         present, fallen = ~np.isnan(state.position[self._columns, 0]), self.fallen_columns(state)
-        loose = present & ~fallen & self.loose_columns(state)
+        loose = present & ~fallen & self.loose_columns(state) & ~self._loose_at_start
         return Columns(total=int(present.sum()), fallen=int(fallen.sum()), loose=int(loose.sum()))
 
     def lost_columns(self, state):

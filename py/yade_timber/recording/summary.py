@@ -27,7 +27,7 @@ PartOfRecord = table("PartOfRecord", source=str, start_s=float, duration_s=float
 Record = table("Record", source=str, pga_gal=Components, scale=float, dt=float, interpolation_error=float,
                onset_s=float | None, note=str | None, sequence=list[PartOfRecord] | None)
 Columns = table("Columns", total=int, fallen=int, loose=int)
-Energy = table("Energy", input=float, kinetic=float, elastic=float, dissipated=dict[str, float], created=float,
+Energy = table("Energy", input=float, kinetic=float, elastic=float, dissipated=dict[str, float], created=float | None,
                residual=float, residual_fraction=float | None, ground_motion=float, gravity_released=float)
 Solver = table("Solver", sweeps_mean=float, sweeps_max=int, unconverged_steps=int, worst_change_j=float)
 Versions = table("Versions", yade=str, package=str)

@@ -14,8 +14,8 @@ SHOWN = ("tilt", "collapse", "structure_fallen", "snow_fallen")
 """Kinds of events of a lot that are events of the town."""
 
 
-def summary(name, summaries):
-    """TownSummary. summaries: {name of a lot: its Summary}"""
+def summary(name, summaries, record):
+    """TownSummary. summaries: {name of a lot: its Summary}; record: Record of the motion that reaches the town"""
     events = [replace(event, lot=lot) for lot, one in summaries.items() for event in one.events if event.kind in SHOWN]
     lots = list(summaries.values())
     verdicts = [lot.verdict for lot in lots]
@@ -23,12 +23,13 @@ def summary(name, summaries):
                        collapsed=any(lot.collapsed for lot in lots),
                        collapse_time_s=min((lot.collapse_time_s for lot in lots if lot.collapsed), default=None),
                        tilt_time_s=min((lot.tilt_time_s for lot in lots if lot.tilt_time_s is not None), default=None),
-                       dt=lots[0].dt, record=lots[0].record, versions=lots[0].versions,
+                       dt=lots[0].dt, record=record, versions=lots[0].versions,
                        events=sorted(events, key=lambda event: event.time_s))
 
 
-def town_frames(name, lots):
-    """Frames of a town without grounds and contacts. lots: (name, (3, 3) axes of the house, (3,) place [m], Frames)"""
+def town_frames(name, lots, record):
+    """Frames of a town without grounds and contacts. lots: (name, (3, 3) axes of the house, (3,) place [m], Frames);
+    record: as in `summary`"""
     placed = [_Lot(*lot) for lot in lots]
     longest = max((lot.run for lot in placed), key=lambda run: len(run.time))
     count = sum(len(lot.kept) for lot in placed)
@@ -43,7 +44,7 @@ def town_frames(name, lots):
         for key, values in zip(("position", "orientation", "load", "broken"), map(np.concatenate, zip(*states))):
             getattr(town, key).append(values)
     town.motion = _motion(placed)
-    town.summary = summary(name, {lot.name: lot.run.summary for lot in placed})
+    town.summary = summary(name, {lot.name: lot.run.summary for lot in placed}, record)
     town.history = History(("time [s]",), np.empty((0, 1)))
     town.breaks = _breaks(placed, first_joints)
     return town

@@ -36,6 +36,8 @@ def made_from(options):
 def identity(origin):
     """{property: value} that a checkpoint and the run that continues it share. origin: `made_from` of the run"""
     options = {name: value for name, value in origin["options"].items() if name not in ("duration", "record", "town")}
+    if "then" in options:
+        options["then"] = [factor for _, factor in following(options["then"], "then")]
     return {**options, "house": Path(options["house"]).stem, "content of files": origin["files"],
             "package": origin["package"]}
 

@@ -25,13 +25,13 @@ class LiveRun(Run):
 
     def start(self, folder_lock):
         """Run in the background, with a view if possible. folder_lock: ExitStack, closed after the results"""
-        self._folder_lock = folder_lock
+        self._folder_lock, self._since = folder_lock, time.perf_counter()
         if O.iter >= self.steps:
             self._end()
             return
         O.tags[TAG] = self.tag = uuid.uuid4().hex
         viewer.show()
-        self._since, self._status = time.perf_counter(), Status(self.observer.log)
+        self._status = Status(self.observer.log)
         self._record_frames()
         O.run(self.steps - O.iter)
         threading.Thread(target=self._watch, daemon=True).start()
@@ -49,8 +49,13 @@ class LiveRun(Run):
             time.sleep(0.5)
         if self.is_loaded():  # a run of another scene is the user's
             O.wait()
-        self.wall_s += time.perf_counter() - self._since
         self._end()
+
+    def write(self, cut_off=None):
+        """Write the results of the run up to now. cut_off: as in Run"""
+        now = time.perf_counter()
+        self.wall_s, self._since = self.wall_s + now - self._since, now
+        super().write(cut_off)
 
     def is_loaded(self):
         """Whether the scene in YADE is this run's, also after it was saved and loaded again."""

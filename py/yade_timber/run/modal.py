@@ -8,6 +8,8 @@ from ..recording.quantities import AXES
 from ..recording.summary import Mode, ModesAt
 from ..scene.modes import natural_modes
 
+ROUNDING = 1e-6
+"""Displacement of the levels over the largest one of a mode in which they do not move. [-]"""
 O = yw.Omega()
 
 
@@ -19,6 +21,8 @@ def modes_now(levels):
         share = {axis: round(float(mode.mass[AXES[axis]] / mass), 4) for axis in DIRECTIONS}
         shape = np.array([mode.shape[level.marks, :3].mean(0) for level in levels])
         largest = max(shape[:, :2].flat, key=abs, default=1.0)
+        if abs(largest) < ROUNDING * abs(mode.shape[:, :3]).max():  # of another structure
+            continue
         shape = {f"storey{k}": {axis: round(float(row[AXES[axis]] / largest), 4) for axis in DIRECTIONS}
                  for k, row in enumerate(shape, 1)}
         period = round(mode.period, 4) if mode.omega2 > 0 else None

@@ -173,8 +173,8 @@ class Observer:
         position, orientation = placements()
         return State(position[:elements], orientation[:elements], joint_loads()[1][:joints])
 
-    def observe(self, time):
-        """Note the events up to a time [s], that of the scene's state."""
+    def observe(self, time, last=False):
+        """Note the events up to a time [s], that of the scene's state. last: whether it is the final state"""
         self.log.drop_after(time)
         monitor, first = find_engine(yw.HouseMonitor), next(iter(find_engine(yw.JointEngine).breaks), None)
         if first:
@@ -191,11 +191,12 @@ class Observer:
         if self.modes is None and time > SETTLED - O.dt / 2:
             self.modes = modes_now(self.main_levels)
         self.peaks = {name: max(peak, self.survey.drift(state, name)) for name, peak in self.peaks.items()}
-        if self.shaking is not None and time <= self.shaking < time + frames.steps_between(O.dt) * O.dt:
+        next_frame = math.inf if last else time + frames.steps_between(O.dt) * O.dt
+        if self.shaking is not None and time <= self.shaking < next_frame:
             self._weigh(time, state)
 
     def _weigh(self, time, state):
-        """Note the damage that the house has in its last frame before the shaking."""
+        """Note the damage that the house has in its last frame before the shaking, or before the end of the run."""
         peaks = {**self.peaks, self.survey.structures[0]: max(find_engine(yw.HouseMonitor).peak, default=0.0)}
         structures = self.survey.by_structure(state, peaks)
         if any(facts.verdict != UNDAMAGED for facts in structures.values()):

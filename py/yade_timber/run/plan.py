@@ -4,28 +4,33 @@ from dataclasses import dataclass, replace
 
 from ..base.notes import noted
 from ..house import Town, load_house, load_town
+from ..motion import interpolation_error
+from ..motion.processing import in_axes
 from ..scene.scenario import Scenario
 from .options import QUIET_DURATION
 
 
 @dataclass(frozen=True)
 class TownPlan:
-    """A Town, and (Scenario, RunOptions) of each lot."""
+    """A Town, (Scenario, RunOptions) of each lot, and the GroundMotion that reaches the town, or None."""
 
     town: Town
     lots: list
+    motion: object
 
 
 def planned(options):
     """Scenario, or TownPlan of a town. Raises HouseError, RecordError."""
     with noted():
         motion = options.motion(options.dt, options.ground_motion) if options.shaken else None
+        if motion:
+            interpolation_error(motion, options.dt)  # refuses a motion that is too long for it before the run
     if options.town is None:
         return _scenario(options, motion)
     town = load_town(options.town)
     delays = town.delays()
     last = max(delays) if motion else 0.0
-    return TownPlan(town, [_lot(options, lot, motion, delay, last) for lot, delay in zip(town.lots, delays)])
+    return TownPlan(town, [_lot(options, lot, motion, delay, last) for lot, delay in zip(town.lots, delays)], motion)
 
 
 def _scenario(options, motion, delay=0.0, last=0.0):
@@ -45,4 +50,4 @@ def _lot(options, lot, motion, delay, last):
     snow = options.snow if lot.snow is None else lot.snow
     own = replace(options, name=f"{options.title}.{lot.name}", house=lot.house, snow=snow,
                   out=options.folder / "lots" / lot.name, no_views=True, quiet=True)
-    return _scenario(own, motion and lot.motion(motion), delay, last), own
+    return _scenario(own, motion and in_axes(motion, lot.axes), delay, last), own

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Records frames of the run that is loaded in YADE (recording/frames.py)."""
+from dataclasses import replace
+
 import numpy as np
 import yade.wrapper as yw
 
@@ -67,11 +69,16 @@ class Recorder:
             self.described = True
 
     def finish(self, summary):
-        """Write all frames and all that is known at the end into one file. summary: Summary. Raises OSError."""
+        """Write all frames up to now and the results into one file; returns the Frames. The run may go on.
+        summary: Summary. Raises OSError.
+        """
         monitor, entries = find_engine(yw.HouseMonitor), list(find_engine(yw.JointEngine).breaks)
-        self.frames.summary = summary
-        self.frames.history = History(monitor.columns(), monitor.rows)
-        self.frames.breaks = {name: [getattr(entry, name) for entry in entries] for name in observer.BREAKS}
-        frame_log.add_frames(self.frames, self.log.records())
-        frames.save(self.path, self.frames)
+        breaks = {name: [getattr(entry, name) for entry in entries] for name in observer.BREAKS}
+        whole = replace(self.frames, summary=summary, history=History(monitor.columns(), monitor.rows), breaks=breaks,
+                        contacts=frames.Contacts())
+        self.log.pending = list(self.log.records())
+        frame_log.add_frames(whole, self.log.pending)
+        frames.save(self.path, whole)
         remove(self.log.path)
+        self.described = False
+        return whole

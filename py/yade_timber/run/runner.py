@@ -24,6 +24,8 @@ from .recorder import Recorder
 from .samples import Samples
 
 STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM)
+HOUSES = "houses.csv"
+"""Table of a town's houses."""
 RECORDED, STATE = (frames.NAME, frame_log.NAME), (checkpoint.NAME, samples.NAME)
 """Files of the frames, and of what a resumed run continues from."""
 O = yw.Omega()
@@ -80,7 +82,8 @@ class Run(Stoppable):
         self.chunk = frames.steps_between(scenario.dt)  # steps between frames, and checks of signals and checkpoints
         self.wall_s = 0.0  # [s] of all steps, those before a resume included
         self.last_saved = 0  # step of the last checkpoint
-        self.summary = None  # once the results are written
+        self.fault = None  # of the physics, which ends the run early
+        self.summary = self.frames = None  # once the results are written
         self.only_export = options.export is not None and self.steps == 0  # results in the folder are left alone
         self.checkpoint_path, self.frames_path = options.folder / checkpoint.NAME, options.folder / frames.NAME
         if not (options.resume and self.checkpoint_path.exists() and self._resume()):
@@ -93,11 +96,7 @@ class Run(Stoppable):
 
     def _start(self):
         """Build the scene."""
-        self.model = build(self.scenario)
-        if self.options.export:
-            target = f"{self.options.named('export')} {self.options.export}"
-            with os_errors(lambda fault: f"{target}: cannot be written: {fault}"):
-                export_scene(self.options.export)
+        self._build()
         if self.only_export:
             return
         clear(self.options, *RECORDED, *STATE)
@@ -107,6 +106,14 @@ class Run(Stoppable):
             self.recorder.take(O.time)
         if self.options.resume:
             self.options.say(f"no checkpoint of this run in {self.options.folder}: starting from the beginning")
+
+    def _build(self):
+        """Build the scene; export it where that is asked for. Raises RunError."""
+        self.model = build(self.scenario)
+        if self.options.export:
+            target = f"{self.options.named('export')} {self.options.export}"
+            with os_errors(lambda fault: f"{target}: cannot be written: {fault}"):
+                export_scene(self.options.export)
 
     def _resume(self):
         """Load checkpoint and frames; returns False when the run may start anew instead. Raises RunError."""
@@ -122,7 +129,10 @@ class Run(Stoppable):
         return True
 
     def _load(self):
-        self.model = self.scenario.build_model()
+        if self.options.export:
+            self._build()
+        else:
+            self.model = self.scenario.build_model()
         saved = checkpoint.load(self.checkpoint_path, identity(self.origin))
         if O.iter >= self.steps:
             duration = f"{self.options.named('duration')} {self.scenario.duration:g}"
@@ -192,7 +202,7 @@ class Run(Stoppable):
 
     def take(self, time, last=False):
         """Note events and record a frame of the scene as it is now. time [s]; last: whether it is the final state."""
-        self.observer.observe(time)
+        self.observer.observe(time, last)
         if self.recorder:
             self.recorder.take(time, last)
 
@@ -235,10 +245,10 @@ class Run(Stoppable):
             return
         if cut_off is None:
             self.take(O.time, last=True)
-        self.samples.restore()
-        tables = quantities.tables(self.observer)
-        self.summary = summary.summary(self.scenario, self.observer, tables, self.wall_s, self.origin, cut_off)
-        written = self._results(tables)
+        with self.samples.restored():
+            tables = quantities.tables(self.observer)
+            self.summary = summary.summary(self.scenario, self.observer, tables, self.wall_s, self.origin, cut_off)
+            written = self._results(tables)
         with os_errors(lambda fault: f"{self.options.folder}: the results are written, the pictures are not ({fault});"
                                      " scripts/show/show_run.py makes them"):
             written += all_pictures.draw(self.options.folder, self.options.views, self.options.report)
@@ -255,7 +265,7 @@ class Run(Stoppable):
         written = []
         with unwritten(self.options):
             if self.recorder:
-                self.recorder.finish(self.summary)
+                self.frames = self.recorder.finish(self.summary)
                 written.append(self.frames_path)
             return written + summary.write(self.options.folder, self.summary, tables, self.observer.model)
 
@@ -267,9 +277,9 @@ def unwritten(options):
 
 
 def clear(options, *more):
-    """Remove results of an earlier run and the files `more`, which are none of this run. Raises RunError."""
+    """Remove results of an earlier run or town and the files `more`, which are none of this run. Raises RunError."""
     with removing(options):
-        for name in (*summary.NAMES, *all_pictures.NAMES, *REPORT, *ensemble.NAMES, *more):
+        for name in (*summary.NAMES, *all_pictures.NAMES, *REPORT, *ensemble.NAMES, HOUSES, *more):
             remove(options.folder / name)
 
 

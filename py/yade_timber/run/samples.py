@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Rows of the monitors of the loaded run; those before the last checkpoint are in a file beside it."""
+from contextlib import contextmanager
+
 import numpy as np
 import yade.wrapper as yw
 
@@ -32,11 +34,17 @@ class Samples:
         if self.log.cut(O.time + O.dt / 2) != size:
             raise RunError(f"{self.log.path}: missing, damaged or older than the checkpoint at {O.time:g} s; {remedy}")
 
-    def restore(self):
-        """Put all rows back into the scene, once, before the results are made of them."""
+    @contextmanager
+    def restored(self):
+        """Context in which the scene's monitors have all rows, for the results."""
         earlier = {kind: [] for kind in MONITORS}
         for kind, _, content in self.log.records():
             earlier[kind].append(np.frombuffer(content))
+        latest = {kind: find_engine(monitor).rows for kind, monitor in MONITORS.items()}
         for kind, monitor in MONITORS.items():
-            engine = find_engine(monitor)
-            engine.rows = np.concatenate([*earlier[kind], engine.rows]).tolist()
+            find_engine(monitor).rows = np.concatenate([*earlier[kind], latest[kind]]).tolist()
+        try:
+            yield
+        finally:
+            for kind, monitor in MONITORS.items():
+                find_engine(monitor).rows = latest[kind]

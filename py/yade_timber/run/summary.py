@@ -39,17 +39,19 @@ def summary(scenario, observed, tables, wall_s, made_from, cut_off=None):
     model, survey, state = observed.model, observed.survey, observed.state()
     monitor, skipper = find_engine(yw.HouseMonitor), find_engine(yw.RestSkipper)
     history = recorded_history(monitor)
-    tilt, collapse = _time(monitor.tiltTime), _time(monitor.collapseTime)
+    tilt, collapse = _finite(monitor.tiltTime), _finite(monitor.collapseTime)
     residual, amplitude = drift.residual(history)
     simulated = round(O.iter * scenario.dt, 9)
     structures = survey.by_structure(state, observed.peaks)
-    energy = energy_balance(queries.energy() if cut_off is None else last_energies(history))
+    created = find_engine(yw.ContactForces).created
+    energy = (energy_balance(queries.energy(), created) if cut_off is None
+              else energy_balance(last_energies(history), _finite(created)))
     draft = Summary(
         scenario=scenario.name, model=model.name, earthquake=scenario.motion is not None, snow=scenario.snow_depth > 0,
         snow_depth_m=scenario.snow_depth, snow_mass_kg=model.counts()["mass_snow"], weight=decode(Weight, weigh(model)),
         diagnosis=decode(Diagnosis, {**diagnose(model), "disagreement": ""}), joint_damping=scenario.joint_damping,
         walls=Walls(level=model.law["wall_level"], other=scenario.other_walls) if model.law["wall_level"] else None,
-        record=record(scenario), dt=scenario.dt, duration_s=simulated, until_collapse=scenario.until_collapse,
+        record=scenario.motion and record(scenario.motion, scenario.dt, scenario.scale, scenario.delay), dt=scenario.dt, duration_s=simulated, until_collapse=scenario.until_collapse,
         cut_off=cut_off or created_too_much(energy), steps=O.iter, wall_s=round(wall_s, 3),
         skipped_s=round(skipper.skipped if skipper else 0.0, 3),
         real_time_factor=round(simulated / wall_s, 6) if wall_s > 0 else None, threads=compiled.thread_count(),
@@ -76,19 +78,15 @@ def judged(draft):
     return replace(draft, diagnosis=replace(draft.diagnosis, disagreement=comparison(draft)), sentence=sentence(draft))
 
 
-def record(scenario):
-    """The part `record`, or None. interpolation_error: of straight lines between samples, as a share of the PGA."""
-    motion = scenario.motion
-    if motion is None:
-        return None
-    scale = scenario.scale
+def record(motion, dt, scale, delay=0.0):
+    """The part `record`. dt: of the run; delay: time at which the motion begins [s]; interpolation_error: of straight
+    lines between samples, as a share of the PGA."""
     parts = [PartOfRecord(source=part.source, start_s=round(part.start, 6), duration_s=round(part.duration, 6),
                           scale=scale * part.scale, pga_gal=_scaled(part.pga_gal, scale)) for part in motion.parts]
-    error = interpolation_error(motion) if motion.dt > scenario.dt else 0.0
     begin = onset(motion)
-    begin = None if begin is None else begin + scenario.delay  # None: no shaking
+    begin = None if begin is None else begin + delay  # None: no shaking
     return Record(source=motion.source or motion.name, pga_gal=_scaled(motion.pga_gal, scale), scale=scale,
-                  dt=motion.dt, interpolation_error=round(error, 6), onset_s=begin,
+                  dt=motion.dt, interpolation_error=round(interpolation_error(motion, dt), 6), onset_s=begin,
                   note=constant_note(motion, scale) or None, sequence=parts or None)
 
 
@@ -107,8 +105,8 @@ def last_energies(history):
     return {name: float(history.energy(name)[-1]) if history.samples else 0.0 for name in yw.HouseMonitor().energy()}
 
 
-def energy_balance(terms):
-    """The part `energy` [J] from the terms of `queries.energy`.
+def energy_balance(terms, created):
+    """The part `energy` [J] from the terms of `queries.energy`. created: ContactForces.created, None if unknown
 
     input: work of the ground motion, energy of imposed velocities and potential energy released by gravity since the
     start. residual: stored, kinetic and dissipated energy minus the input; residual_fraction: its absolute value over
@@ -121,10 +119,10 @@ def energy_balance(terms):
     residual = queries.energy_residual(terms)
     balance = Energy(input=supplied, kinetic=terms["kinetic"], elastic=sum(terms[name] for name in ELASTIC),
                      dissipated={term.name: terms[term.name] for term in DISSIPATED},
-                     created=find_engine(yw.ContactForces).created, residual=residual,
+                     created=created, residual=residual,
                      residual_fraction=abs(residual) / supplied if supplied > 0 else None,
                      ground_motion=terms["ground_motion"], gravity_released=-terms["gravity"])
-    if not all(math.isfinite(value) for value in (supplied, residual, balance.created, *balance.dissipated.values())):
+    if not all(math.isfinite(value) for value in (supplied, residual, created or 0.0, *balance.dissipated.values())):
         raise RunError(f"the energies at {O.time:.4f} s are not finite: {encode(balance)}; try a smaller --dt")
     return balance
 
@@ -148,8 +146,8 @@ def created_too_much(energy):
             f" {CREATED:g}); try a smaller --dt")
 
 
-def _time(value):
-    """A time for JSON: None for one that has not come (NaN, infinite)."""
+def _finite(value):
+    """A number for JSON: None for NaN, as a time that has not come, and infinity."""
     return value if math.isfinite(value) else None
 
 

@@ -4,16 +4,15 @@
 The houses do not act on each other. Each scene is computed from frame to frame before the next one, so that its data
 stay in the processor's cache: time and memory per element do not depend on the number of houses.
 """
-import os
-import time
 from contextlib import contextmanager
 
 import yade.runtime
 import yade.wrapper as yw
 
-from ..base.atomic_write import remove, remove_parts, write_text
+from ..base.atomic_write import remove_parts, write_text
 from ..base.errors import InputError, RunError
 from ..base.lock import prepare_folder
+from ..base.processors import processors
 from ..base.table import csv_text
 from ..house.town import check_places
 from ..pictures import all_pictures
@@ -22,11 +21,9 @@ from ..recording import frames
 from ..recording import town as recording
 from ..text.english import sentence
 from .progress import Bar
-from .runner import Interrupted, Run, Stoppable, removing, unwritten
+from . import summary
+from .runner import HOUSES, RECORDED, STATE, Interrupted, PhysicsError, Run, Stoppable, clear, removing, unwritten
 
-HOUSES = "houses.csv"
-NAMES = (HOUSES, frames.NAME, *all_pictures.NAMES)
-"""Files in the folder of a town; those of a lot are in the folder lots/<name of the lot>."""
 O = yw.Omega()
 
 
@@ -35,9 +32,9 @@ class TownRun(Stoppable):
 
     def __init__(self, plan, options):
         if yade.runtime.opts.threads is None and yade.runtime.opts.cores is None:
-            compiled.set_thread_count(len(os.sched_getaffinity(0)))
+            compiled.set_thread_count(processors())
         self.town, self.options = plan.town, options
-        self.wall_s = 0.0  # [s] of all steps since the start of this process
+        self.record = town_record(plan, options)
         self.runs, self.scenes = [], []
         for lot, (scenario, lot_options) in zip(self.town.lots, plan.lots):
             prepare_folder(lot_options.folder, options.named("out"))
@@ -48,9 +45,8 @@ class TownRun(Stoppable):
         check_places([(lot, run.model) for lot, run in self.lots])
         O.reset()
         self.idle = O._sceneObj
+        clear(options, *RECORDED, *STATE)
         with removing(options):
-            for name in NAMES:
-                remove(options.folder / name)
             for run in self.runs:
                 remove_parts(run.options.folder)
 
@@ -67,7 +63,8 @@ class TownRun(Stoppable):
     # --- steps --------------------------------------------------------------------------------------------------------
 
     def complete(self):
-        """All remaining steps, then the results. Raises RunError when the physics fails, Interrupted after a signal."""
+        """All remaining steps, then the results. Lots whose physics fails end there; the others go on. Raises
+        PhysicsError at the end, Interrupted after a signal."""
         mean_end = sum(run.steps * run.scenario.dt for run in self.runs) / len(self.runs)
         with self._stop_signals(), Bar(self.town.name, mean_end, 0, self.options.quiet) as progress:
             active = self._first_steps()
@@ -80,11 +77,11 @@ class TownRun(Stoppable):
         """The first step of each lot, which checks the scene; returns the numbers of the lots that have more."""
         active = []
         for number in range(len(self.runs)):
-            with self._of(number) as run:
-                if O.iter < run.steps:
-                    active.append(number)
+            with self._of(number) as run, ending(run):
                 if O.iter + 1 < run.next_stop():
                     run.advance(O.iter + 1)
+                if O.iter < run.steps:
+                    active.append(number)
         return active
 
     def _chunk(self, active):
@@ -93,15 +90,13 @@ class TownRun(Stoppable):
         for number in active:
             with self._of(number) as run:
                 stops.append(run.next_stop())
-        since = time.perf_counter()
         outcomes = compiled.advance_scenes([self.scenes[number] for number in active], stops, self.idle)
-        self.wall_s += time.perf_counter() - since
         left = []
         for number, (seconds, error) in zip(active, outcomes):
-            with self._of(number) as run:
-                if error:
-                    raise RunError(f"{error}; the run stops at {O.time:.4f} s without results")
+            with self._of(number) as run, ending(run):
                 run.wall_s += seconds
+                if error:
+                    raise PhysicsError(f"{error}; the run stops at {O.time:.4f} s")
                 run.after_chunk()
                 if O.iter < run.steps:
                     left.append(number)
@@ -115,15 +110,20 @@ class TownRun(Stoppable):
     # --- results ------------------------------------------------------------------------------------------------------
 
     def write(self):
-        """Write the results of all lots, the table of houses, and the pictures of the town."""
+        """Write the results of all lots, the table of houses, and the pictures of the town. Raises PhysicsError of the
+        first lot that was cut off."""
         for number in range(len(self.runs)):
-            with self._of(number) as run:
-                run.write()
+            with self._of(number) as run, ending(run):
+                run.write(cut_off=run.fault)
         for lot, run in self.lots:
             self.options.say(f"{lot.name}: {sentence(run.summary)}")
         written = self._results()
-        self.options.say(sentence(recording.summary(self.town.name, {lot.name: run.summary for lot, run in self.lots})))
+        summaries = {lot.name: run.summary for lot, run in self.lots}
+        self.options.say(sentence(recording.summary(self.town.name, summaries, self.record)))
         self.options.say("written: " + ", ".join(map(str, [*written, self.options.folder / "lots"])))
+        faults = [f"lot {lot.name}: {run.fault}" for lot, run in self.lots if run.fault]
+        if faults:
+            raise PhysicsError(faults[0] + (f"; {len(faults) - 1} more lots are cut off" if faults[1:] else ""))
 
     def _results(self):
         folder = self.options.folder
@@ -132,9 +132,9 @@ class TownRun(Stoppable):
             write_text(written[0], self.table())
             if self.options.no_frames:
                 return written
-            recorded = [(lot.name, lot.axes, lot.origin(run.model), run.recorder.frames) for lot, run in self.lots]
+            recorded = [(lot.name, lot.axes, lot.origin(run.model), run.frames) for lot, run in self.lots]
             written.append(folder / frames.NAME)
-            frames.save(written[-1], recording.town_frames(self.town.name, recorded))
+            frames.save(written[-1], recording.town_frames(self.town.name, recorded, self.record))
             return written + (all_pictures.write(folder) if self.options.views else [])
 
     def table(self):
@@ -155,6 +155,20 @@ COLUMNS = ("lot", "house", "x [m]", "y [m]", "rotation [degrees]", "snow [m]", "
            "peak drift [-]", "residual drift [-]", "tilt [s]", "collapse [s]", "broken joints", "joints",
            "broken wall sheets", "wall sheets", "computing time [s]", "sentence")
 """Of houses.csv."""
+
+
+def town_record(plan, options):
+    """Record of the motion that reaches the town, in its axes; None without an earthquake."""
+    return plan.motion and summary.record(plan.motion, options.dt, 1.0 if options.scale is None else options.scale)
+
+
+@contextmanager
+def ending(run):
+    """Context in which a PhysicsError ends this Run alone."""
+    try:
+        yield
+    except PhysicsError as problem:
+        run.fault = str(problem)
 
 
 @contextmanager

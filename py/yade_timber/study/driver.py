@@ -11,21 +11,27 @@ import shutil
 import signal
 import subprocess
 import time
+from contextlib import ExitStack
 from collections import deque
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ..base.atomic_write import make_folder, remove, write_text
 from ..base.errors import RunError
-from ..base.lock import is_locked
+from ..base.lock import is_locked, locked
 from ..base.options import options
+from ..base.processors import processors
 from ..recording.summary import NAME as SUMMARY
 from ..recording.summary import Summary
 from ..run.identity import made_from
 from ..run.options import RunOptions
 
 END, LOG = "run.json", "run.log"
+DRIVER = ".driver"
+"""Lock of the driver that starts a run."""
 STATES = ("done", "failed", "unfinished")
+STOPS = ("SIGHUP", "SIGINT", "SIGKILL", "SIGTERM")
+"""Signals after which a run is continued; others are crashes."""
 POLL = 0.2
 """Wall time between two checks of the running processes. [s]"""
 SAVE_TIME = 60.0
@@ -88,7 +94,7 @@ def run_missing(tasks, scripts, jobs=None, report=print, retry=True):
     missing = [task for task in tasks if task.is_missing(retry)]
     if missing:
         report(f"{len(missing)} of {len(tasks)} runs to do")
-        _run_all(missing, scripts, jobs or os.cpu_count(), report)
+        _run_all(missing, scripts, jobs or processors(), report)
     return {task: task.summary for task in tasks}
 
 
@@ -125,8 +131,8 @@ class _Process:
     def __init__(self, task, scripts):
         self.task, self.child, self.start = task, None, time.monotonic()
         make_folder(task.folder)
-        self.outdated = (task.folder / SUMMARY).exists()
-        if is_locked(task.folder):
+        self.outdated, self.lock = (task.folder / SUMMARY).exists(), ExitStack()
+        if is_locked(task.folder) or not self.lock.enter_context(locked(task.folder, DRIVER)):
             return
         for name in (END, SUMMARY):
             remove(task.folder / name)
@@ -143,11 +149,15 @@ class _Process:
 
     def outcome(self):
         """Record how the run ended; returns one line."""
-        if self.child is None:
+        with self.lock:
+            return self._recorded()
+
+    def _recorded(self):
+        if self.child is None or self.child.returncode and is_locked(self.task.folder):
             return "skipped: another process computes this run"
-        stop = _signal(self.child.returncode)
-        if stop:
-            return f"stopped by {stop}; the next start continues this run"
+        ended_by = _signal(self.child.returncode)
+        if ended_by in STOPS:
+            return f"stopped by {ended_by}; the next start continues this run"
         error = self._error()
         write_text(self.task.folder / END, json.dumps({"status": "failed" if error else "done", "error": error}) + "\n")
         if error:
@@ -157,6 +167,8 @@ class _Process:
 
     def _error(self):
         """Error message of the run, or None."""
+        if ended_by := _signal(self.child.returncode):
+            return f"crashed ({ended_by}); see {self.task.folder / LOG}"
         if self.child.returncode:
             return last_error((self.task.folder / LOG).read_text(errors="replace"), self.child.returncode)
         if self.task.summary is None:

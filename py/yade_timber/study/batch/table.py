@@ -75,6 +75,8 @@ class Row:
         """RunOptions of scripts/house.py. house: file in place of the row's. Raises RunError."""
         files = {"house": str(house or self.house), "record": self.record, "then": self.then}
         calm = self.cells.get("record") == NO_EARTHQUAKE
+        if calm and "seed" in self.cells:
+            raise BatchError(f"{self.where('seed')}: the column record is {NO_EARTHQUAKE}, without an earthquake")
         door = Door(lambda column: f"{self.where(column)}:", f"the column record is {NO_EARTHQUAKE}")
         return RunOptions(quake=not calm, door=door,
                           **{column: self.value(column) for column in DECISIVE if column not in files}, **files)

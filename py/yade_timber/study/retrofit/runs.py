@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Runs of a ranking: pilots that choose the strength of the motions, rounds of selection, the finalists' test."""
 import math
-import os
 from dataclasses import dataclass
 from pathlib import Path
 
 from ...base.atomic_write import write_text
 from ...base.errors import RunError
+from ...base.processors import processors
 from ...base.table import csv_text
 from ..batch import read_table, run_rows, write_runs
 from ..batch.table import COLUMNS
@@ -131,5 +131,5 @@ def progress(runs, left, jobs):
     """'24 runs, 31 s each; 36 runs left, about 10 min'. jobs: runs at a time, None: one per core"""
     walls = [run["wall_s"] for run in runs if run["status"] == "done"]
     each = sum(walls) / max(len(walls), 1)
-    rest = f"; {left} runs left, about {each * left / (jobs or os.cpu_count()) / 60:.0f} min" if left > 0 else ""
+    rest = f"; {left} runs left, about {each * left / (jobs or processors()) / 60:.0f} min" if left > 0 else ""
     return f"{len(runs)} runs, {each:.0f} s each{rest}"
