@@ -19,10 +19,7 @@ from yade_timber.base.errors import RunError
 from yade_timber.base.table import csv_text
 from yade_timber.study.batch import read_table, run_rows, write_runs
 from yade_timber.study.options import Parser, add_driver_options, non_negative, positive, results_folder
-
-START, END = 14.0, 34.0
-"""Part of the synthetic motion that a study runs: quiet, strong shaking (18-24 s), and ten seconds for a collapse. [s]
-"""
+from yade_timber.study.retrofit.motions import END, START
 
 
 def parser(about, folder):

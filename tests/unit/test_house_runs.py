@@ -3,6 +3,7 @@
 hold.
 """
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ import yaml
 import yade_timber as yt
 from yade import O
 from yade_timber.base.time_step import MAX_DT
-from yade_timber.run.observer import Observer
+from yade_timber.run.observer import Observer, cause_of
 from yade_timber.scene import engines, scenario
 from yade_timber.house import HouseError
 from yade_timber.motion import GroundMotion
@@ -231,3 +232,11 @@ def test_peaks_of_joints_end_with_the_fall():
     observed.observe(O.time)
     assert observed.joint_peaks() == before and observed.fall() == monitor.tiltTime
     assert Observer(observed.model, observed.progress()).joint_peaks() == before
+
+
+def test_the_cause_of_a_wall_is_shear():
+    """Tension and compression of its springs are directions of its drift."""
+    model = scenario.Scenario("walls", "tiled_house").build_model()
+    kinds = [joint.kind.startswith("wall") for joint in model.joints]
+    for wall, cause in ((True, "shear"), (False, "compression")):
+        assert cause_of(SimpleNamespace(joint=kinds.index(wall), cause="compression"), model) == cause

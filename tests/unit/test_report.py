@@ -15,7 +15,7 @@ from summaries import sample_summary
 from yade_timber.base.errors import RunError
 from yade_timber.pictures import figures, quantities, report, report_pictures
 from yade_timber.recording import peaks
-from yade_timber.recording.failures import cause_of, first_failures
+from yade_timber.recording.failures import first_failures
 from yade_timber.recording.events import Collapse, Event, SnowFallen
 from yade_timber.recording.summary import Mode, ModesAt, Summary, Weight
 from yade_timber.recording.quantities import SUSTAINED, Storeys, band_limited, ground_velocity, storeys
@@ -240,11 +240,6 @@ def test_first_failures():
     assert [failure.joint for failure in first_failures(run, 1)] == [3]
     run.breaks = None
     assert first_failures(run) == []
-
-
-def test_the_cause_of_a_wall_is_shear():
-    run = frames_sample.walled_run()
-    assert cause_of(run, [kind.startswith("wall") for kind in run.joints.kind].index(True), "compression") == "shear"
 
 
 def test_report_of_a_collapse():

@@ -11,8 +11,6 @@ from ..recording.history import History
 from ..recording.summary import Summary
 from ..text.english import sentence
 
-BREAKS = "breaks.csv"
-
 
 class RunResult:
     """Results of a run, from the files in its folder.
@@ -93,7 +91,7 @@ class RunResult:
     @cached_property
     def breaks(self):
         """Each spring that broke, in order: dictionaries of texts with the columns of ``breaks.csv`` as keys."""
-        return peaks.rows(self.folder / BREAKS)
+        return peaks.rows(self.folder / peaks.BREAKS)
 
     @cached_property
     def frames(self):

@@ -27,13 +27,8 @@ def first_failures(frames, most=MOST):
     for time, joint, cause in sorted(zip(*(frames.breaks[key] for key in ("time", "joint", "cause"))),
                                      key=lambda entry: entry[0]):
         first.setdefault(int(joint), (float(time), cause))
-    return [Failure(time, joint, cause_of(frames, joint, cause), *_drift(frames, joint, time))
+    return [Failure(time, joint, cause, *_drift(frames, joint, time))
             for joint, (time, cause) in list(first.items())[:most]]
-
-
-def cause_of(frames, joint, cause):
-    """'tension', 'compression' or 'shear'; of a wall always 'shear': its signs are directions of its drift."""
-    return "shear" if frames.joints.kind[joint].startswith("wall") else cause
 
 
 def _drift(frames, joint, time):

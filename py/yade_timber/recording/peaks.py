@@ -9,7 +9,7 @@ from ..base.errors import RunError
 from ..base.input_file import exists
 from ..base.table import read_csv
 
-JOINTS, COLUMNS = "joints.csv", "columns.csv"
+JOINTS, COLUMNS, BREAKS = "joints.csv", "columns.csv", "breaks.csv"
 
 
 @dataclass(frozen=True)

@@ -99,12 +99,16 @@ def sides_of(joint):
     return [side for side in SIDES if side in joint.side] or ["inside"]
 
 
+def cause_of(entry, model):
+    """'tension', 'compression' or 'shear' of a JointBreak; of a wall 'shear': its signs are directions of its drift."""
+    return "shear" if model.joints[entry.joint].ks == 0 else entry.cause
+
+
 def break_row(entry, model):
     """Values of a JointBreak in the order of breaks.csv."""
     joint = model.joints[entry.joint]
-    cause = "shear" if joint.ks == 0 else entry.cause  # of a wall: tension and compression are directions of its drift
-    return (entry.time, joint.name, joint.kind, storey_of(joint, model), "+".join(sides_of(joint)), entry.spring, cause,
-            entry.force)
+    return (entry.time, joint.name, joint.kind, storey_of(joint, model), "+".join(sides_of(joint)), entry.spring,
+            cause_of(entry, model), entry.force)
 
 
 # --- states -----------------------------------------------------------------------------------------------------------

@@ -25,7 +25,7 @@ class Recorder:
         version = observer.versions()["package"]
         self.frames = frames.Frames(title, scenario.name, model.name, version, elements, joints,
                                     motion=observer.describe_motion(), run=run)
-        self.path, self.log, self.times = path, AppendLog(path.with_name(frame_log.NAME), run), []
+        self.model, self.path, self.log, self.times = model, path, AppendLog(path.with_name(frame_log.NAME), run), []
         self.described = False  # whether the file holds elements and joints of this run
 
     def take(self, time, last=False):
@@ -74,6 +74,7 @@ class Recorder:
         """
         monitor, entries = find_engine(yw.HouseMonitor), list(find_engine(yw.JointEngine).breaks)
         breaks = {name: [getattr(entry, name) for entry in entries] for name in observer.BREAKS}
+        breaks["cause"] = [observer.cause_of(entry, self.model) for entry in entries]
         whole = replace(self.frames, summary=summary, history=History(monitor.columns(), monitor.rows), breaks=breaks,
                         contacts=frames.Contacts())
         self.log.pending = list(self.log.records())

@@ -17,6 +17,7 @@ from ..plugin import compiled
 from ..recording import drift
 from ..recording.history import NAME as HISTORY
 from ..recording.history import History
+from ..recording.peaks import BREAKS
 from ..recording.summary import NAME, Diagnosis, Energy, PartOfRecord, Record, Solver, Summary, Versions, Walls, Weight
 from ..scene import queries
 from ..scene.engines import find_engine
@@ -25,7 +26,6 @@ from . import observer, quantities
 
 CREATED, NEGLIGIBLE = 1e-4, 1e-3
 """Admissible energy created by contacts and joints, as a share of the input [-], and what is always admissible [J]."""
-BREAKS = "breaks.csv"
 NAMES = (NAME, HISTORY, BREAKS, *quantities.NAMES)
 """Files that `write` makes."""
 O = yw.Omega()
