@@ -86,6 +86,10 @@ void ContactForces::collectBodies()
 	sums.clear(count);
 	syncForces(*scene);
 	timber::forAll(count, [this](int id) { collectBody(id); });
+	for (const shared_ptr<Body>& b : *scene->bodies)
+		if (b && !isFree(*b->state)) // forces of joints
+			imposedWork += imposedWorkOf(
+			        b->getId(), scene->forces.getForce(b->getId()), scene->forces.getTorque(b->getId()));
 }
 
 /// Bodies must not be placed deeper in each other than weights press them: their springs would throw them apart.
@@ -111,11 +115,19 @@ void ContactForces::findIslands()
 	islands.find(bodies.size(), links);
 }
 
-void ContactForces::addForce(const timber::PairForce& f, Body::id_t id1, Body::id_t id2)
+/// Work of a fixed body in a step against a force and torque on it. [J]
+Real ContactForces::imposedWorkOf(Body::id_t id, const Vector3r& force, const Vector3r& torque) const
 {
-	// A fixed body may belong to several islands, which other threads solve
+	return -scene->dt * (force.dot(bodies[id].velocity) + torque.dot(bodies[id].spin));
+}
+
+/// Returns the work of fixed bodies [J]. They may belong to several islands, which other threads solve.
+Real ContactForces::addForce(const timber::PairForce& f, Body::id_t id1, Body::id_t id2)
+{
 	if (bodies[id1].inverseMass > 0) sums.add(id1, -f.onB, f.torqueA);
 	if (bodies[id2].inverseMass > 0) sums.add(id2, f.onB, f.torqueB);
+	return (bodies[id1].inverseMass > 0 ? 0 : imposedWorkOf(id1, -f.onB, f.torqueA))
+	        + (bodies[id2].inverseMass > 0 ? 0 : imposedWorkOf(id2, f.onB, f.torqueB));
 }
 
 /// All phases of the solver (contact_solver.hpp) for one island, while it is in the processor's cache.
@@ -139,10 +151,10 @@ ContactForces::IslandResult ContactForces::solveIsland(timber::Islands::Island i
 	});
 	result.convergence = solver.solve(tolerance);
 	for (int k = 0; k < pairCount; ++k)
-		addForce(timber::storeForces(solver, k, pair(k).phys->properties(), result.energies), pair(k).id1,
-		        pair(k).id2);
+		result.imposedWork += addForce(timber::storeForces(solver, k, pair(k).phys->properties(), result.energies),
+		        pair(k).id1, pair(k).id2);
 	for (int k = pairCount; k < count; ++k)
-		addForce(
+		result.imposedWork += addForce(
 		        storeJoint(solver, k - pairCount, *scene, joint(k), result.joints), joint(k).id1, joint(k).id2);
 	return result;
 }
@@ -175,6 +187,7 @@ void ContactForces::sumResults()
 		elasticNormal += result.energies.elasticNormal;
 		elasticShear += result.energies.elasticShear;
 		jointDashpot += result.joints.dissipated;
+		imposedWork += result.imposedWork;
 		newmark += result.joints.stored;
 		mostSweeps = std::max(mostSweeps, result.convergence.sweeps);
 		allConverged = allConverged && result.convergence.converged;

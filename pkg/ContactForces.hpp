@@ -26,6 +26,7 @@ class ContactForces : public GlobalEngine {
 		timber::PairEnergies energies;
 		JointEnergies joints;
 		timber::Convergence convergence;
+		Real imposedWork = 0; ///< by the contacts of fixed bodies that move [J]
 	};
 	std::vector<ContactPair> pairs, unordered; ///< ordered by body ids, and in the container's order
 	std::vector<size_t> order; ///< of each of `pairs`, its index in `unordered`
@@ -44,7 +45,8 @@ class ContactForces : public GlobalEngine {
 	void collectBodies();
 	void checkPlacements() const;
 	void findIslands();
-	void addForce(const timber::PairForce&, Body::id_t id1, Body::id_t id2);
+	Real imposedWorkOf(Body::id_t id, const Vector3r& force, const Vector3r& torque) const;
+	Real addForce(const timber::PairForce&, Body::id_t id1, Body::id_t id2);
 	IslandResult solveIsland(timber::Islands::Island);
 	void solveAll();
 	void sumResults();
@@ -90,6 +92,7 @@ public:
 		((Real, placed, 0, , "Energy that normal springs had because bodies were placed in contact. [J]"))
 		((Real, created, 0, , "Energy that contact points and joints had returned beyond what they had when "
 			"they ceased to exist. [J]"))
+		((Real, imposedWork, 0, , "Work that fixed bodies have done on others by moving. [J]"))
 		((Real, newmark, 0, , "Energy of Newmark's term of stiff joints. [J]"))
 		((Real, elasticNormal, 0, , "Energy of the normal springs in the middle between the last placement and "
 			"the next one. [J]"))

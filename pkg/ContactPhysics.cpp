@@ -96,7 +96,7 @@ namespace {
 		}
 		phys.power = Law::power;
 		const timber::PairProperties pair = phys.properties();
-		const bool placed = I->isFresh(scene) && isPlaced(geom, *b1.state, *b2.state);
+		const bool placed = phys.records.empty() && I->isFresh(scene) && isPlaced(geom, *b1.state, *b2.state);
 		phys.releasedEnergy = timber::elasticPair(law,
 		        { pair, kinematics(*b1.state), kinematics(*b2.state), scene->dt, form, placed },
 		        geom.contactPoints, phys.records);

@@ -3,6 +3,7 @@
 #ifdef YADE_OPENGL
 #include <GL/gl.h>
 #include <JointEngine.hpp>
+#include <validation.hpp>
 
 namespace yade {
 
@@ -16,15 +17,6 @@ namespace {
 	{
 		return load < 0.5 ? Vector3r(blue + 2 * load * (yellow - blue))
 		                  : Vector3r(yellow + (2 * load - 1) * (red - yellow));
-	}
-
-	/// Centre of the springs' anchors on the first body, world frame. [m]
-	Vector3r positionOf(const TimberJoint& joint, const State& state)
-	{
-		Vector3r sum = Vector3r::Zero();
-		for (const Vector3r& a : joint.anchors1)
-			sum += a;
-		return state.pos + state.ori * (sum / Real(joint.anchors1.size()));
 	}
 
 	void drawDot(const Vector3r& x, const Vector3r& color, Real size)
@@ -52,11 +44,8 @@ namespace {
 
 void GlExtra_TimberJoints::validate() const
 {
-	if (!(size > 0))
-		throw std::invalid_argument("GlExtra_TimberJoints.size = " + std::to_string(size) + ": it must be > 0");
-	if (!(cross > 0))
-		throw std::invalid_argument(
-		        "GlExtra_TimberJoints.cross = " + std::to_string(cross) + ": it must be > 0");
+	requirePositive("GlExtra_TimberJoints.size", size);
+	requirePositive("GlExtra_TimberJoints.cross", cross);
 }
 
 void GlExtra_TimberJoints::render()
@@ -70,9 +59,9 @@ void GlExtra_TimberJoints::render()
 		for (const shared_ptr<TimberJoint>& j : engine->joints) {
 			const Body* b = bodyAt(*scenePtr, j->id1);
 			if (!b || j->anchors1.empty()) continue;
-			const Vector3r x = positionOf(*j, *b->state);
+			const Vector3r x = b->state->pos + b->state->ori * j->centre1();
 			if (j->isBroken()) drawCross(x, cross);
-			else if (std::count(j->broken.begin(), j->broken.end(), 0) < long(j->broken.size()))
+			else if (j->intactSprings() < j->broken.size())
 				drawDot(x, amber, 1.5 * size);
 			else drawDot(x, loadColor(math::min(Real(1), j->load())), size);
 		}

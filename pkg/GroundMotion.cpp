@@ -50,21 +50,22 @@ namespace {
 	}
 }
 
-Real GroundMotionEngine::workUntil(const Vector3r& momentum, Real dt) const
+Real GroundMotionEngine::workUntil(const Vector3r& momentum) const
 {
-	return work - dt * lastAcceleration.dot(lastMomentum + momentum) / 2;
+	return work - lastStep * lastAcceleration.dot(lastMomentum + momentum) / 2;
 }
 
 Real GroundMotionEngine::workUntilNow(const Scene& current) const
 {
-	return workUntil(freeMomentum(current), current.dt);
+	return dead ? work : workUntil(freeMomentum(current));
 }
 
 void GroundMotionEngine::action()
 {
 	const Vector3r momentum = freeMomentum(*scene);
-	work = workUntil(momentum, scene->dt);
+	work = workUntil(momentum);
 	lastMomentum = momentum;
+	lastStep = scene->dt;
 	lastAcceleration = at(scene->time);
 	addBodyForce(*scene, -lastAcceleration);
 }

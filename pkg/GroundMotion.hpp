@@ -7,7 +7,7 @@ namespace yade {
 
 class GroundMotionEngine : public GlobalEngine {
 	/// Work done on the bodies until the end of the last step. momentum: of the free bodies then [kg m/s]. [J]
-	Real workUntil(const Vector3r& momentum, Real dt) const;
+	Real workUntil(const Vector3r& momentum) const;
 
 public:
 	void postLoad(GroundMotionEngine&) { validate(); }
@@ -32,6 +32,7 @@ public:
 		((Real, work, 0, , "Work done on the bodies until the start of the last step. [J]"))
 		((Vector3r, lastMomentum, Vector3r::Zero(), Attr::hidden, "Momentum of the free bodies at the start of "
 			"the last step. [kg m/s]"))
+		((Real, lastStep, 0, Attr::hidden, "Length of the last step. [s]"))
 		((Vector3r, lastAcceleration, Vector3r::Zero(), Attr::hidden, "Ground acceleration in the last step. "
 			"[m/s2]")),
 		,

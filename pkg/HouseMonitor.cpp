@@ -57,7 +57,7 @@ namespace {
 		        engine->joints.begin(), engine->joints.end(), [](const auto& j) { return j->isBroken(); }));
 	}
 
-	/// Scene and the engines that store energies; null if there is none.
+	/// Scene and the engines that store energies, also those that are switched off; null if there is none.
 	struct EnergySources {
 		const Scene& scene;
 		const ContactForces* contacts;
@@ -68,8 +68,10 @@ namespace {
 	/// Elastic energy of joints after a whole step. [J]
 	Real jointEnergy(const EnergySources& s)
 	{
-		return (s.joints ? s.joints->elastic + s.scene.dt / 2 * s.joints->elasticPower(s.scene) : 0)
-		        + (s.contacts ? s.contacts->newmark : 0);
+		Real energy = s.contacts ? s.contacts->newmark : 0;
+		if (s.joints) energy += s.joints->elastic;
+		if (s.joints && !s.joints->dead) energy += s.scene.dt / 2 * s.joints->elasticPower(s.scene);
+		return energy;
 	}
 
 	/// A term of the energy balance after a whole step, see ``yade_timber.energy``.
@@ -99,8 +101,8 @@ namespace {
 
 	EnergySources energySources(const Scene& scene)
 	{
-		return { scene, findEngine<ContactForces>(scene), findEngine<JointEngine>(scene),
-			findEngine<GroundMotionEngine>(scene) };
+		return { scene, findEngine<ContactForces>(scene, true), findEngine<JointEngine>(scene, true),
+			findEngine<GroundMotionEngine>(scene, true) };
 	}
 }
 

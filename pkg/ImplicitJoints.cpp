@@ -39,14 +39,15 @@ void findImplicitJoints(const Scene& scene, const std::vector<timber::SolverBody
 	for (const shared_ptr<TimberJoint>& joint : engine->joints)
 		if (isImplicit(*joint, scene, bodies, alsoStiff)) implicit.push_back(joint.get());
 		else {
-			const Real energy = std::exchange(joint->newmarkEnergy, Real(0));
+			const Real energy = joint->newmarkEnergy;
+			joint->setNewmark({});
 			(energy > 0 ? energies.dissipated : energies.created) += math::abs(energy);
 		}
 }
 
 void prepareJoint(timber::ContactSolver& solver, size_t k, TimberJoint& joint, const Scene& scene)
 {
-	solver.prepareJoint(k, joint.modes, axesOf(scene, joint.id1), joint.dampingRatio, joint.newmarkEnergy);
+	solver.prepareJoint(k, joint.modes, axesOf(scene, joint.id1), joint.dampingRatio, joint.newmark());
 }
 
 timber::PairForce storeJoint(
@@ -55,8 +56,8 @@ timber::PairForce storeJoint(
 	const timber::ModalConstraint& c = solver.joint(k);
 	const timber::JointImpulse P = timber::jointImpulse(c);
 	const Vector3r force = P.linear / scene.dt, torque = P.angular / scene.dt;
-	joint.newmarkEnergy = c.stored;
-	energies.stored += c.stored;
+	joint.setNewmark(c.history);
+	energies.stored += c.history.stored;
 	energies.dissipated += c.dissipated;
 	return { force, -c.armA.cross(force) - torque, c.armB.cross(force) + torque };
 }

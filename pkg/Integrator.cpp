@@ -8,22 +8,12 @@ namespace yade {
 
 YADE_PLUGIN((SymplecticIntegrator));
 
-namespace {
-	/// Zeroes the components of blocked directions; `first` is the flag of the x component.
-	Vector3r unblocked(Vector3r v, unsigned blocked, unsigned first)
-	{
-		for (int axis = 0; blocked && axis < 3; ++axis)
-			if (blocked & (first << axis)) v[axis] = 0;
-		return v;
-	}
-}
-
 /// Kick and drift of a free body: velocity, angular momentum and position at the end of the step.
 void SymplecticIntegrator::kickAndDrift(Body::id_t id, State& s) const
 {
 	const Real dt = scene->dt;
-	s.vel += dt / s.mass * unblocked(scene->forces.getForce(id), s.blockedDOFs, State::DOF_X);
-	s.angMom += dt * unblocked(scene->forces.getTorque(id), s.blockedDOFs, State::DOF_RX);
+	s.vel += dt / s.mass * scene->forces.getForce(id);
+	s.angMom += dt * scene->forces.getTorque(id);
 	s.pos += dt * s.vel;
 }
 

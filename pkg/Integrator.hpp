@@ -19,8 +19,8 @@ public:
 		"rotation within a step is composed of exact rotations about the principal axes "
 		"(Dullweber, Leimkuhler and McLachlan 1997): second order, time-reversible, symplectic, with exact "
 		"conservation of angular momentum. It replaces NewtonIntegrator, whose energy grows in free rotation. "
-		"No numerical damping. Forces do not act on blocked degrees of freedom. A body with all of them "
-		"blocked moves with its prescribed velocity and angular velocity.");
+		"No numerical damping. A body with all degrees of freedom blocked moves with its prescribed velocity "
+		"and angular velocity.");
 	// clang-format on
 };
 REGISTER_SERIALIZABLE(SymplecticIntegrator);

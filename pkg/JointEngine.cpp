@@ -44,18 +44,34 @@ int JointEngine::append(const shared_ptr<TimberJoint>& joint)
 boost::python::list JointEngine::pyJoints() const { return listOf(joints); }
 boost::python::list JointEngine::pyBreaks() const { return listOf(breaks); }
 
-bool JointEngine::hasBody(Body::id_t id) const { return id >= 0 && size_t(id) < bodies.size() && bodies[id].exists; }
+bool JointEngine::hasBody(Body::id_t id) const 
+{
+	return id >= 0 && size_t(id) < bodies.size() && bodies[id].exists;
+}
+
 
 void JointEngine::collectBodies()
 {
 	bodies.resize(scene->bodies->size());
 	for (size_t id = 0; id < bodies.size(); ++id) {
-		const Body* b = (*scene->bodies)[id].get();
-		bodies[id].exists = b;
+		const shared_ptr<Body>& b = (*scene->bodies)[id];
+		const bool isSame = !bodies[id].body.owner_before(b) && !b.owner_before(bodies[id].body);
+		bodies[id].isOther = bodies[id].exists && b && !isSame;
+		bodies[id].exists = bool(b);
+		if (!isSame) bodies[id].body = b;
 		if (!b) continue;
 		bodies[id].axes = b->state->ori.toRotationMatrix();
 		bodies[id].position = b->state->pos;
 	}
+}
+
+/// Breaks joints of a body that was erased and whose id has gone to another one.
+void JointEngine::breakReplaced()
+{
+	if (std::none_of(bodies.begin(), bodies.end(), [](const Placement& p) { return p.isOther; })) return;
+	for (size_t k = 0; k < jointForces.size(); ++k) // the joints of the step before
+		for (const Body::id_t id : { joints[k]->id1, joints[k]->id2 })
+			if (hasBody(id) && bodies[id].isOther) joints[k]->breakAll();
 }
 
 void JointEngine::checkJoints() const
@@ -78,7 +94,7 @@ void JointEngine::checkJoints() const
 /// Packs the joints again if there are others, or if attributes have changed.
 void JointEngine::packJoints()
 {
-	if (packed->isCurrent && packed->joints.size() == joints.size()) return;
+	if (currentJoints()) return;
 	checkJoints();
 	packed.reset(new timber::PackedJoints);
 	for (const shared_ptr<TimberJoint>& joint : joints)
@@ -188,6 +204,7 @@ void JointEngine::action()
 {
 	packJoints();
 	collectBodies();
+	breakReplaced();
 	computeForces();
 	breakAndSum();
 	sums.handOver(*scene);

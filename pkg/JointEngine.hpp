@@ -27,6 +27,9 @@ class JointEngine : public GlobalEngine {
 		Matrix3r axes; ///< rotation matrix, body to world
 		Vector3r position; ///< of the centre [m]
 		bool exists = false;
+		/// The body itself; no owner, which would have to release bodies of Python without its lock.
+		boost::weak_ptr<Body> body;
+		bool isOther = false; ///< than in the step before, with the same id
 	};
 	std::vector<Placement> bodies; ///< by id
 	shared_ptr<timber::PackedJoints> packed { new timber::PackedJoints };
@@ -35,6 +38,7 @@ class JointEngine : public GlobalEngine {
 
 	bool hasBody(Body::id_t) const;
 	void collectBodies();
+	void breakReplaced();
 	void checkJoints() const;
 	void packJoints();
 	timber::JointPlacement placement(const timber::PackedJoint& joint) const
@@ -51,6 +55,11 @@ class JointEngine : public GlobalEngine {
 
 public:
 	void action() override;
+	/// Address of the packed joints; null if joints were added or changed since.
+	const void* currentJoints() const
+	{
+		return packed->isCurrent && packed->joints.size() == joints.size() ? packed.get() : nullptr;
+	}
 	int append(const shared_ptr<TimberJoint>&);
 	boost::python::list pyJoints() const;
 	boost::python::list pyBreaks() const;
@@ -72,14 +81,16 @@ public:
 		"stretch.",
 		((vector<shared_ptr<TimberJoint>>, joints, , Attr::hidden, "The joints. [-]"))
 		((vector<shared_ptr<JointBreak>>, breaks, , Attr::hidden, "Log of the broken springs. [-]"))
-		((Real, released, 0, , "Energy stored in springs when they broke. [J]"))
+		((Real, released, 0, , "Energy stored in springs when they broke, without those that were set to broken "
+			"or lost a body. [J]"))
 		((Real, elastic, 0, , "Elastic energy of the springs at the placement of the last step. [J]"))
 		((Real, yielded, 0, , "Energy dissipated by yielding springs. [J]")),
 		,
 		.def("append", &JointEngine::append, (boost::python::arg("joint")), "Adds a joint and returns its "
 			"index. [-]")
 		.add_property("joints", &JointEngine::pyJoints, "List of all joints. [-]")
-		.add_property("breaks", &JointEngine::pyBreaks, "List of the springs that broke, in order. [-]")
+		.add_property("breaks", &JointEngine::pyBreaks, "List of the springs that broke, in order, "
+			"without those that were set to broken or lost a body. [-]")
 	);
 	// clang-format on
 };

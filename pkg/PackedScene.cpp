@@ -50,7 +50,7 @@ boost::python::tuple packedJoints(const shared_ptr<JointEngine>& engine)
 	std::vector<std::uint8_t> broken;
 	for (const shared_ptr<TimberJoint>& j : engine->joints) {
 		loads.push_back(float(j->load()));
-		broken.push_back(std::uint8_t(j->broken.size() - std::count(j->broken.begin(), j->broken.end(), 0)));
+		broken.push_back(std::uint8_t(j->broken.size() - j->intactSprings()));
 	}
 	return boost::python::make_tuple(bytes(loads), bytes(broken));
 }

@@ -30,8 +30,7 @@ Real RestSkipper::largestSpeed() const
 {
 	Real largest = 0;
 	for (const shared_ptr<Body>& b : *scene->bodies)
-		if (b && isFree(*b->state))
-			largest = math::max(largest, b->state->vel.norm() + b->state->angVel.norm());
+		if (b) largest = math::max(largest, b->state->vel.norm() + b->state->angVel.norm());
 	return largest;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <Shape.hpp>
 #include <kernel/rotation.hpp>
+#include <validation.hpp>
 #include <map>
 #include <mutex>
 
@@ -56,9 +57,8 @@ namespace {
 
 void RoundedPolyhedron::validate() const
 {
-	if (!(radius >= 0 && std::isfinite(radius)))
-		throw std::invalid_argument("RoundedPolyhedron.radius = " + std::to_string(radius)
-		        + ": it must be >= 0 (0 takes 10 % of the shortest edge)");
+	require(radius >= 0 && std::isfinite(radius), "RoundedPolyhedron.radius", radius,
+	        ">= 0 (0 takes 10 % of the shortest edge)");
 }
 
 void RoundedPolyhedron::postLoad(RoundedPolyhedron&)
@@ -107,9 +107,7 @@ Real boxMargin(const Body& b, Real margin, Real dt)
 
 void Bo1_RoundedPolyhedron_Aabb::validate() const
 {
-	if (!(margin >= 0 && std::isfinite(margin)))
-		throw std::invalid_argument(
-		        "Bo1_RoundedPolyhedron_Aabb.margin = " + std::to_string(margin) + ": it must be >= 0");
+	requirePositive("Bo1_RoundedPolyhedron_Aabb.margin", margin);
 }
 
 void Bo1_RoundedPolyhedron_Aabb::go(

@@ -82,6 +82,8 @@ void TimberJoint::postLoad(TimberJoint&)
 	storeSprings();
 	if (packed) packed->isCurrent = false;
 	packed.reset();
+	if (isRead) modes.state.springs = 0; // computed for other attributes
+	isRead = true;
 	isSlip = law == "slip";
 	validate();
 	const bool hasSprings = !anchors1.empty() && !anchors2.empty();
@@ -110,6 +112,13 @@ void TimberJoint::breakSpring(size_t spring)
 	if (packed) packed->set(index, changed);
 }
 
+void TimberJoint::setNewmark(const timber::NewmarkHistory& history)
+{
+	newmarkEnergy = history.stored;
+	newmarkLinear = history.linear;
+	newmarkAngular = history.angular;
+}
+
 void TimberJoint::breakAll()
 {
 	for (size_t k = 0; k < broken.size(); ++k)
@@ -121,7 +130,6 @@ void TimberJoint::pack(const shared_ptr<timber::PackedJoints>& to)
 	const timber::JointSprings unpacked = springs();
 	packed = to;
 	index = packed->joints.size();
-	if (!modes.haveAnchors(springGroup())) modes.state.springs = 0; // changed in the session
 	packed->add({ id1, id2, yields(), stiffness(), jointStrength(), normal }, unpacked);
 }
 

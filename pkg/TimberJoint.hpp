@@ -11,8 +11,7 @@ namespace boost {
 namespace serialization {
 	template <class Archive> void serialize(Archive& ar, timber::JointModes& m, const unsigned int)
 	{
-		ar& make_nvp("centre", m.centre) & make_nvp("spread", m.spread) & make_nvp("modes", m.modes)
-		        & make_nvp("frequencies", m.frequencies);
+		ar& make_nvp("centre", m.centre) & make_nvp("modes", m.modes) & make_nvp("frequencies", m.frequencies);
 		ar& make_nvp("springs", m.state.springs) & make_nvp("normal", m.state.stiffness.normal)
 		        & make_nvp("shear", m.state.stiffness.shear);
 		ar& make_nvp("pairInverseMass", m.state.pairInverseMass)
@@ -25,6 +24,7 @@ namespace serialization {
 namespace yade {
 
 class TimberJoint : public Serializable {
+	bool isRead = false; ///< attributes were read or set: those set later decide about the modes
 	bool isSlip = false; ///< law == "slip": a comparison of strings for each joint and step takes 2 % of a step
 	timber::SlipLaw slip; ///< of a spring, from the attributes
 	/// Of the engine: they have the springs' stretches and forces of the last step. Null: the attributes have them,
@@ -84,6 +84,8 @@ public:
 	timber::SpringGroup springGroup() const { return { anchors1, broken, stiffness(), normal }; }
 	void breakSpring(size_t spring);
 	void breakAll();
+	timber::NewmarkHistory newmark() const { return { newmarkEnergy, newmarkLinear, newmarkAngular }; }
+	void setNewmark(const timber::NewmarkHistory&);
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(TimberJoint, Serializable, "Springs between two bodies, each anchored in "
@@ -132,6 +134,10 @@ public:
 		((vector<Real>, largestStretches, , Attr::readonly, "Law slip: largest length of each spring's stretch "
 			"so far. [m]"))
 		((Real, newmarkEnergy, 0, Attr::readonly, "Energy of Newmark's term of a stiff joint. [J]"))
+		((Vector3r, newmarkLinear, Vector3r::Zero(), Attr::hidden, "Momentum of Newmark's term, frame of body "
+			"1. [N s]"))
+		((Vector3r, newmarkAngular, Vector3r::Zero(), Attr::hidden, "Angular momentum of Newmark's term about "
+			"the centre of the springs, frame of body 1. [N m s]"))
 		((timber::JointModes, modes, , Attr::hidden, "Vibration modes of a damped joint. [-]")),
 		,
 		.add_property("forces", &TimberJoint::springForces, "Force of each spring on body 1 in the last step, "

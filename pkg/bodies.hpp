@@ -20,11 +20,11 @@ inline Body* bodyAt(const Scene& scene, Body::id_t id)
 	return id >= 0 && size_t(id) < bodies.size() ? bodies[id].get() : nullptr;
 }
 
-/// The first engine of that class, or null.
-template <class E> E* findEngine(const Scene& scene)
+/// The first engine of that class, or null. alsoDead: whether it may be switched off.
+template <class E> E* findEngine(const Scene& scene, bool alsoDead = false)
 {
 	for (const shared_ptr<Engine>& e : scene.engines)
-		if (E* match = e->dead ? nullptr : dynamic_cast<E*>(e.get())) return match;
+		if (E* match = e->dead && !alsoDead ? nullptr : dynamic_cast<E*>(e.get())) return match;
 	return nullptr;
 }
 

@@ -73,11 +73,12 @@ size_t ContactSolver::addJoint(int bodyA, int bodyB)
 	return joints.size() - 1;
 }
 
-void ContactSolver::prepareJoint(size_t k, const JointModes& modes, const Mat3& axesA, double ratio, double stored)
+void ContactSolver::prepareJoint(
+        size_t k, const JointModes& modes, const Mat3& axesA, double ratio, const NewmarkHistory& history)
 {
 	assert(k < joints.size());
 	timber::prepareModes(
-	        joints[k], (*bodies)[joints[k].bodyA], (*bodies)[joints[k].bodyB], modes, axesA, ratio, h, stored);
+	        joints[k], (*bodies)[joints[k].bodyA], (*bodies)[joints[k].bodyB], modes, axesA, ratio, h, history);
 }
 
 template <class Number> void ContactSolver::prepare(size_t k, size_t first, const StepInput<Number>& data)

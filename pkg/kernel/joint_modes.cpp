@@ -34,14 +34,6 @@ namespace {
 		return sum / double(springs.count());
 	}
 
-	double spreadOf(const SpringGroup& springs, const Vec3& centre)
-	{
-		double sum = 0;
-		for (size_t i = 0; i < springs.broken.size(); ++i)
-			if (!springs.broken[i]) sum += (springs.anchors[i] - centre).squaredNorm();
-		return sum;
-	}
-
 	/// Part of a body in R.
 	Mat6 twistResponse(const SolverBody& body, const Vec3& arm)
 	{
@@ -114,11 +106,6 @@ namespace {
 
 } // namespace
 
-bool JointModes::haveAnchors(const SpringGroup& springs) const
-{
-	return springs.count() > 0 && centreOf(springs) == centre && spreadOf(springs, centre) == spread;
-}
-
 JointModes jointModes(const SolverBody& a, const SolverBody& b, const Mat3& axesA, const SpringGroup& springs,
         const JointState& state)
 {
@@ -128,7 +115,6 @@ JointModes jointModes(const SolverBody& a, const SolverBody& b, const Mat3& axes
 	JointModes result;
 	result.state = state;
 	result.centre = centreOf(springs);
-	result.spread = spreadOf(springs, result.centre);
 	const Mat6 L = response(a, b, axesA, result.centre).llt().matrixL(); // R = L L^T
 	const Eigen::SelfAdjointEigenSolver<Mat6> solver(L.transpose() * stiffnessMatrix(springs, result.centre) * L);
 	// Rounding may make the eigenvalue of a free rotation negative
@@ -138,7 +124,7 @@ JointModes jointModes(const SolverBody& a, const SolverBody& b, const Mat3& axes
 }
 
 void prepareModes(ModalConstraint& c, const SolverBody& a, const SolverBody& b, const JointModes& modes,
-        const Mat3& axesA, double ratio, double h, double stored)
+        const Mat3& axesA, double ratio, double h, const NewmarkHistory& history)
 {
 	assert(h > 0 && ratio >= 0 && modes.state.springs > 0 && isRotation(axesA));
 	c.modes = &modes;
@@ -153,18 +139,25 @@ void prepareModes(ModalConstraint& c, const SolverBody& a, const SolverBody& b, 
 	c.decay = x;
 	c.share = (x + g) / (1 + x + g);
 	c.shareBefore = (x - g) / (1 + x + g);
+	c.kept.setZero();
+	if (modes.isStiff(h)) {
+		Vec6 momentum;
+		momentum << history.linear, history.angular;
+		const Vec6 m = modes.modes.partialPivLu().solve(momentum);
+		c.kept = (phase > stiffPhase).select((m.array() - g * c.before.array()) / (1 + x + g), 0.);
+	}
 	c.newmark = g;
 	c.impulse.setZero();
-	c.stored = stored;
+	c.history = history;
 	c.dissipated = 0;
 }
 
 void solveModes(ModalConstraint& c, const BodyMotion& a, const BodyMotion& b, double threshold)
 {
 	const Vec6 now = modalNow(c, a, b), sum = c.before + now - c.impulse; // eta + eta' without q
-	Vec6 q = c.share.cwiseProduct(c.impulse - now) - c.shareBefore.cwiseProduct(c.before); // (3)
+	Vec6 q = c.share.cwiseProduct(c.impulse - now) - c.shareBefore.cwiseProduct(c.before) + c.kept; // (3)
 	const double square = q.squaredNorm(), linear = q.dot(sum); // work: (linear + square) / 2
-	const double account = std::max(0., c.stored);
+	const double account = std::max(0., c.history.stored);
 	if (linear + square > 2 * account) q *= largestShare(linear, square, account); // (4)
 	const Vec6 change = q - c.impulse;
 	c.squaredChange = change.squaredNorm();
@@ -183,10 +176,11 @@ void applyExplicitModes(ModalConstraint& c, const BodyMotion& a, const BodyMotio
 void finishModes(ModalConstraint& c, const BodyMotion& a, const BodyMotion& b)
 {
 	const Vec6 now = modalNow(c, a, b);
-	const double available = c.stored - c.impulse.dot(c.before + now) / 2,
+	const double available = c.history.stored - c.impulse.dot(c.before + now) / 2,
 	             mass = c.newmark.dot(now.cwiseProduct(now)) / 2;
-	c.stored = std::min(available, mass);
-	c.dissipated = available - c.stored;
+	const Vec6 momentum = c.modes->modes * c.newmark.cwiseProduct(now);
+	c.history = { std::min(available, mass), momentum.head<3>(), momentum.tail<3>() };
+	c.dissipated = available - c.history.stored;
 }
 
 JointImpulse jointImpulse(const ModalConstraint& c) { return impulseOf(c, c.impulse); }

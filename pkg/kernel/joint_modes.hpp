@@ -17,13 +17,16 @@
 /// Impulse of a step h: P = -h D (w + w') / 2, w before and w' after the step: second order, stable at any zeta h, and
 /// the dissipated energy h (w + w')^T D (w + w') / 4 is never negative. Newmark's term adds -beta h2 K (w' - w), as a
 /// mass beta h2 K would. In terms of the modes, P = Z q, eta = Z^T w, these are six scalars:
-///     q = -x (eta + eta') - g (eta' - eta),   x = h zeta omega,   g = beta y,   beta = y / (4 y + 2),   y = (h omega)2
+///     q = -x (eta + eta') - (g eta' - m),   x = h zeta omega,   g = beta y,   beta = y / (4 y + 2),   y = (h omega)2
 ///                                                                                           (2)
-/// with beta = 0 for modes that the step resolves, h omega <= stiffPhase. The mass of Newmark's term has the energy sum
+/// with beta = 0 for modes that the step resolves, h omega <= stiffPhase. The mass has the momentum m = g eta of the
+/// step before, 0 for a new joint: velocities that are imposed between steps are those of the bodies alone. (With g eta
+/// of the present velocity, an imposed one stretches a stiff spring by h omega times its exact amplitude.) The mass of Newmark's term has the energy sum
 /// g eta'^2 / 2, at most the work that the bodies have done on the joint and that is neither returned nor dissipated
 /// (the account N). The rest of that work is dissipated.
 /// With the current twist u, in which q0 acts already, eta' = Z^T u + q - q0, and a visit of the joint is
-///     q = s (q0 - Z^T u) - r Z^T w,   s = (x + g) / (1 + x + g),   r = (x - g) / (1 + x + g)    (3)
+///     q = s (q0 - Z^T u) - r Z^T w + (m - g Z^T w) / (1 + x + g),
+///     s = (x + g) / (1 + x + g),   r = (x - g) / (1 + x + g)                                    (3)
 /// Newmark's term may put back what it has stored and no more, whatever the modes: q is shortened to
 ///     q^T (eta + eta') / 2 <= N                                                                 (4)
 /// The first visit of a step starts from q0 = 0, after the warm start of the contacts. Its error is small like s, so
@@ -37,6 +40,7 @@
 ///     beta     -             Newmark's parameter of a mode [-]
 ///     eta      -             modal velocity before the step; eta': after the step [kg^1/2 m/s]
 ///     g        -             weight of Newmark's term [-]
+///     m        momentum      of Newmark's term [kg^1/2 m/s]
 ///     N        stored        account of Newmark's term [J]
 ///     K        stiffness     of the unbroken springs about the centre [N/m, N m]
 ///     omega    frequency     angular, of a mode [rad/s]
@@ -93,18 +97,21 @@ struct JointState {
 struct JointModes {
 	JointState state; ///< for which they were computed
 	Vec3 centre = Vec3::Zero(); ///< of the unbroken springs, in the frame of A [m]
-	double spread = 0; ///< sum of their anchors' squared distances from it [m2]
 	Mat6 modes = Mat6::Zero(); ///< Z, in the axes of A
 	Vec6 frequencies = Vec6::Zero(); ///< omega
 
 	/// Whether explicit springs would not resolve a step of h [s]. Frequencies increase.
 	bool isStiff(double h) const { return h * frequencies[5] > stiffPhase; }
-	/// Whether the springs' anchors in A are those for which they were computed.
-	bool haveAnchors(const SpringGroup& springs) const;
 };
 /// axesA: rotation matrix from the frame of A to the world. At least one spring is unbroken, and one body free.
 JointModes jointModes(const SolverBody& a, const SolverBody& b, const Mat3& axesA, const SpringGroup& springs,
         const JointState& state);
+
+/// Newmark's term of a joint from step to step.
+struct NewmarkHistory {
+	double stored = 0; ///< N [J]
+	Vec3 linear = Vec3::Zero(), angular = Vec3::Zero(); ///< Z m, in the axes of A [N s, N m s]
+};
 
 /// A joint's modes in a step.
 struct ModalConstraint {
@@ -114,10 +121,11 @@ struct ModalConstraint {
 	Vec3 armA, armB; ///< from the centres of mass to the joint's centre [m]
 	Vec6 before; ///< eta
 	Vec6 decay, share, shareBefore; ///< x, s, r
+	Vec6 kept; ///< (m - g eta) / (1 + x + g)
 	Vec6 impulse; ///< q: in-out of the sweeps
 	double squaredChange; ///< of q in the last visit: twice the kinetic energy of the change [J]
 	Vec6 newmark; ///< g
-	double stored; ///< N: in-out [J]
+	NewmarkHistory history; ///< N, m: in-out
 	double dissipated; ///< in the step, after finishModes() [J]
 	/// Of the convergence threshold of the sweeps: squared changes are compared with this share of it. (h omega)^-4
 	/// of the stiffest mode: errors change elastic forces by (h omega)^2 times as much [-]
@@ -125,9 +133,9 @@ struct ModalConstraint {
 	static constexpr size_t count = 1; ///< contact points for which a joint counts in the convergence of the sweeps
 };
 
-/// Constraint for a step of h [s], with zero impulse. modes are not copied. stored: N before the step [J].
+/// Constraint for a step of h [s], with zero impulse. modes are not copied.
 void prepareModes(ModalConstraint& constraint, const SolverBody& a, const SolverBody& b, const JointModes& modes,
-        const Mat3& axesA, double ratio, double h, double stored);
+        const Mat3& axesA, double ratio, double h, const NewmarkHistory& history);
 
 /// One Gauss-Seidel visit: (3), (4). A squared change of at most `threshold` [J] is not applied.
 void solveModes(ModalConstraint& constraint, const BodyMotion& a, const BodyMotion& b, double threshold);
@@ -135,7 +143,7 @@ void solveModes(ModalConstraint& constraint, const BodyMotion& a, const BodyMoti
 /// Impulse of explicit dashpots, of the velocities before the step, without Newmark's term.
 void applyExplicitModes(ModalConstraint& constraint, const BodyMotion& a, const BodyMotion& b);
 
-/// Account and dissipated energy after the step. a, b: after the sweeps.
+/// History and dissipated energy after the step. a, b: after the sweeps.
 void finishModes(ModalConstraint& constraint, const BodyMotion& a, const BodyMotion& b);
 
 /// Impulse of the modes on B at the joint's centre.

@@ -74,13 +74,6 @@ public:
 	SlipLaw() = default;
 	/// points: behind the origin; their stretches ascend, the last one has no force.
 	SlipLaw(double stiffness, double frictionShare, const std::vector<BackbonePoint>& points);
-	/// Bilinear, with loss of strength.
-	SlipLaw(double stiffness, double strength, double frictionShare, double softeningStretch,
-	        double ultimateStretch)
-	        : SlipLaw(stiffness, frictionShare,
-	                { { strength / stiffness, strength }, { softeningStretch, strength }, { ultimateStretch, 0 } })
-	{
-	}
 
 	/// What points must be for this stiffness and are not; null if they are a backbone.
 	static const char* unmetBy(double stiffness, const std::vector<BackbonePoint>& points);

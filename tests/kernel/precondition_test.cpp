@@ -88,10 +88,11 @@ TEST(Preconditions, OfJointsAndStability)
 	springForces({ 1, 1 }, { axes, axes, none }, Vec3::UnitX(), first, end, total);
 	EXPECT_REFUSED(springForces({ 0, 1 }, { axes, axes, none }, Vec3::UnitX(), first, end, total));
 	EXPECT_REFUSED(springForces({ 1, -1 }, { axes, axes, none }, Vec3::UnitX(), first, end, total));
-	EXPECT_GT(slipForce({ 1, 1, 0.5, 2, 3 }, {}, Vec3::UnitX()).force.norm(), 0);
-	EXPECT_REFUSED(slipForce({ 1, 1, 0.5, 1, 3 }, {}, Vec3::UnitX())); // softens before it yields
-	EXPECT_REFUSED(slipForce({ 1, 1, 0.5, 2, 3 }, { none, -1 }, Vec3::UnitX()));
-	EXPECT_REFUSED(slipForce({ 1, 1, 0.5, 2, 3 }, {}, Vec3::Constant(notANumber)));
+	const auto softeningFrom = [](double stretch) { return SlipLaw(1, 0.5, { { 1, 1 }, { stretch, 1 }, { 3, 0 } }); };
+	EXPECT_GT(slipForce(softeningFrom(2), {}, Vec3::UnitX()).force.norm(), 0);
+	EXPECT_REFUSED(slipForce(softeningFrom(1), {}, Vec3::UnitX())); // softens before it yields
+	EXPECT_REFUSED(slipForce(softeningFrom(2), { none, -1 }, Vec3::UnitX()));
+	EXPECT_REFUSED(slipForce(softeningFrom(2), {}, Vec3::Constant(notANumber)));
 	EXPECT_REFUSED(isOverloaded({ notANumber, false }, JointForce()));
 	EXPECT_REFUSED(largestEigenvalue({ body(1, none) }, { { 0, 1, none, none, Vec3::UnitX(), 1, 1 } }));
 }

@@ -13,7 +13,7 @@ constexpr double rounding = 1e-12; ///< of sums of up to 1e4 numbers, relative
 
 // Numbers of a nailed fitting: it yields at 5 mm.
 constexpr double k = 1e6, F = 5000, y = F / k, dc = 0.012, du = 0.03;
-SlipLaw lawOf(double phi) { return { k, F, phi, dc, du }; }
+SlipLaw lawOf(double phi) { return { k, phi, { { F / k, F }, { dc, F }, { du, 0 } } }; }
 
 /// Backbone of first loading [N], written from its definition.
 double backbone(double r)

@@ -76,12 +76,14 @@ def energy():
     dict
         Energies [J]: ``kinetic``; ``gravity`` (potential, from the reference placement); ``elastic_contacts`` (from the
         placement of bodies in contact), ``elastic_joints``; ``ground_motion`` (work done by it), ``imposed_velocity``
-        (brought in by `set_velocity`); dissipated: ``dashpot_normal``, ``dashpot_shear``, ``friction``,
+        (by `set_velocity`, and by fixed bodies that move); dissipated: ``dashpot_normal``, ``dashpot_shear``, ``friction``,
         ``broken_springs``, ``lost_contacts`` (points that vanished under load), ``joint_dashpot``, ``joint_yield``.
         The sum of all terms but ``ground_motion`` and ``imposed_velocity``, minus these two, is constant, unless
         engines of other packages apply forces (``ForceEngine``, ``AxialGravityEngine``): no term has their work.
     """
-    return Energies(yw.HouseMonitor().energy() | {IMPOSED: float(O.tags[TAG]) if TAG in O.tags.keys() else 0.0})
+    contacts = find_engine(yw.ContactForces)
+    imposed = (float(O.tags[TAG]) if TAG in O.tags.keys() else 0.0) + (contacts.imposedWork if contacts else 0.0)
+    return Energies(yw.HouseMonitor().energy() | {IMPOSED: imposed})
 
 
 def energy_residual(terms=None):

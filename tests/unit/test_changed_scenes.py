@@ -1,0 +1,179 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Scenes that are changed between two steps: energies, joints, contacts and checks remain right."""
+import math
+
+import pytest
+import yade.wrapper as yw
+import yade_timber as yt
+from yade import O
+from yade_timber.scene.engines import find_engine
+
+SIDE = 0.2
+
+
+def corners(z, x=0.0):
+    return [(x + a, b, z) for a in (-0.1, 0.1) for b in (-0.1, 0.1)]
+
+
+def cube(z, x=0.0, **more):
+    return O.bodies.append(yt.box((SIDE, SIDE, SIDE), (x, 0, z), **more))
+
+
+def plate():
+    O.reset()
+    return O.bodies.append(yt.box((4, 4, 0.2), (0, 0, -0.1), fixed=True))
+
+
+def start(dt=1e-4, steps=1, **options):
+    O.dt, O.engines = dt, yt.engines(**options)
+    O.run(steps, True)
+
+
+# --- joints -----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("normal", [(0, 0, 1), (0, 1, 0)])
+def test_a_changed_normal_of_a_stiff_joint(normal):
+    """Its modes are computed again: with those of the first normal the bodies' velocities grow without limit."""
+    O.reset()
+    one, other = cube(0, fixed=True), cube(0, 0.5)
+    points = [(0.25, y, z) for y in (-0.1, 0.1) for z in (-0.1, 0.1)]
+    O.dt, O.engines = 2e-4, yt.engines(gravity=(0, 0, 0))
+    joint = yt.connect(one, other, points, normal=(1, 0, 0), stiffness=(1.5e9, 1e4), strength=math.inf, damping_ratio=0.02)
+    O.run(1, True)
+    joint.normal = normal
+    yt.set_velocity(O.bodies[other], (0, 0.01, 0.1))
+    before = yt.energy()["kinetic"]
+    O.run(1000, True)
+    assert yt.energy()["kinetic"] < before and abs(yt.energy_residual()) < 1e-3 * before
+
+
+@pytest.mark.parametrize("late", [False, True])
+@pytest.mark.parametrize("stiffness", [1e7, 1.5e9])
+def test_an_imposed_velocity_does_not_overload_a_stiff_joint(late, stiffness):
+    """h omega = 0.8 and 9. late: the bodies move before they are joined."""
+    O.reset()
+    one, other = cube(0, fixed=True), cube(0.5)
+    O.dt, O.engines = 2e-4, yt.engines(gravity=(0, 0, 0))
+
+    def connected():
+        return yt.connect(one, other, corners(0.25), normal=(0, 0, 1), stiffness=(stiffness, stiffness), strength=math.inf)
+
+    joint = None if late else connected()
+    O.run(1, True)
+    yt.set_velocity(O.bodies[other], (0, 0, 0.1))
+    joint = joint or connected()
+    exact, largest = 0.1 * math.sqrt(4 * stiffness * O.bodies[other].state.mass), 0
+    for _ in range(100):
+        O.run(1, True)
+        largest = max(largest, sum(spring["force"].norm() for spring in joint.springs))
+    assert 0.05 * exact < largest < 1.15 * exact
+
+
+def test_a_joint_too_stiff_for_the_step_in_mid_run():
+    """Added, or made stiffer: refused before a step is computed with it."""
+    plate()
+    low, high = cube(0.1), cube(0.3)
+    O.dt, O.engines = 5e-4, yt.engines()
+    first = yt.connect(low, high, corners(0.2))
+    O.run(10, True)
+    stiff = yt.connect(low, high, corners(0.2), stiffness=(1e13, 1e13), strength=math.inf)
+    with pytest.raises(RuntimeError, match="O.dt = 0.0005 s: too large"):
+        O.run(1, True)
+    stiff.broken = [1, 1, 1, 1]
+    O.run(10, True)
+    first.kn = first.ks = 1e14
+    with pytest.raises(RuntimeError, match="O.dt = 0.0005 s: too large"):
+        O.run(1, True)
+
+
+def test_a_joint_ends_with_its_body():
+    """Also if another body gets the id before the next step. Joints of the new body hold."""
+    plate()
+    low, high = cube(0.1), cube(0.3)
+    O.dt, O.engines = 1e-4, yt.engines()
+    lost = yt.connect(low, high, corners(0.2), strength=math.inf)
+    O.run(100, True)
+    O.bodies.erase(high)
+    O.bodies.insertAtId(yt.box((SIDE, SIDE, SIDE), (1.5, 0, 0.1)), high)
+    kept = yt.connect(0, high, corners(0, 1.5))
+    O.run(100, True)
+    assert lost.isBroken and not kept.isBroken and O.bodies[high].state.vel.norm() < 0.1
+
+
+# --- energies ---------------------------------------------------------------------------------------------------------
+
+
+def test_a_fixed_body_that_moves_does_work():
+    """A plate under a cube accelerates it by friction."""
+    ground = plate()
+    cube(0.1 - 1e-5)
+    start(steps=1000)
+    yt.set_velocity(O.bodies[ground], (0.5, 0, 0))
+    O.run(3000, True)
+    terms = yt.energy()
+    assert terms["imposed_velocity"] > 0.9 * (terms["friction"] + terms["kinetic"]) > 0.1
+    assert abs(yt.energy_residual()) < 1e-3 * terms["imposed_velocity"]
+
+
+def test_energies_of_engines_that_are_switched_off():
+    plate()
+    cube(0.1 - 1e-5)
+    shaking = yw.GroundMotionEngine(step=0.01, acceleration=[(6 * math.sin(0.1 * k), 0, 0) for k in range(30)])
+    start(steps=4000, ground_motion=shaking)
+    work = yt.energy()["ground_motion"]
+    shaking.dead = True
+    O.run(10, True)
+    assert work > 0.1 and yt.energy()["ground_motion"] == pytest.approx(work, rel=1e-9)
+    assert abs(yt.energy_residual()) < 1e-6 * work
+
+
+def test_a_changed_step_leaves_the_work_of_the_ground_motion():
+    plate()
+    cube(5)
+    start(dt=5e-4, steps=1000, gravity=(0, 0, 0), ground_motion=yw.GroundMotionEngine(step=0.01, acceleration=[(6, 0, 0)] * 300))
+    work = yt.energy()["ground_motion"]
+    O.dt = 1e-5
+    assert yt.energy()["ground_motion"] == work
+    O.run(1, True)
+    assert abs(yt.energy_residual()) < 1e-9 * work
+
+
+@pytest.mark.parametrize("gravity, material", [(-9.81, None), (-900, "snow")])
+def test_time_set_back(gravity, material):
+    """`O.resetTime` makes no contact new."""
+    plate()
+    cube(0.1 - 1e-5 * (material is None), **({"material": yt.snow(density=900)} if material else {}))
+    start(steps=3000, gravity=(0, 0, gravity))
+    before = yt.energy_residual()
+    O.resetTime()
+    O.run(3, True)
+    assert yt.energy_residual() == pytest.approx(before, abs=1e-9)
+
+
+# --- engines ----------------------------------------------------------------------------------------------------------
+
+
+def test_a_fixed_body_that_rotates_is_not_at_rest():
+    plate()
+    cube(0.1 - 1e-6)
+    table = O.bodies.append(yt.box((0.5, 0.5, 0.2), (5, 0, 0), fixed=True))
+    O.dt, O.engines = 1e-4, yt.engines(skip_rest=200)
+    yt.set_velocity(O.bodies[table], (0, 0, 0), (0, 0, 1))
+    O.run(20000, True)
+    assert find_engine(yw.RestSkipper).skipped == 0 and O.bodies[table].state.ori.toAxisAngle()[1] == pytest.approx(2, rel=1e-3)
+
+
+@pytest.mark.parametrize("dt, interval", [(3e-4, 0.01), (3e-4, 1e-3), (1.7e-4, 0.01), (5e-4, 0.002)])
+def test_samples_at_multiples_of_the_interval(dt, interval):
+    plate()
+    cube(0.1)
+    monitor = yw.HouseMonitor(interval=interval)
+    start(dt=dt, steps=round(0.3 / dt) + 1, monitor=monitor)
+    times = monitor.rows[:: len(monitor.columns())]
+    assert all(abs(time - k * interval) <= dt / 2 * (1 + 1e-9) for k, time in enumerate(times)) and len(times) > 0.3 / interval - 1
+
+
+def test_no_margin():
+    with pytest.raises(ValueError, match="Bo1_RoundedPolyhedron_Aabb.margin = 0: it must be finite and > 0"):
+        yw.Bo1_RoundedPolyhedron_Aabb(margin=0)
