@@ -151,8 +151,9 @@ ContactForces::IslandResult ContactForces::solveIsland(timber::Islands::Island i
 	});
 	result.convergence = solver.solve(tolerance);
 	for (int k = 0; k < pairCount; ++k)
-		result.imposedWork += addForce(timber::storeForces(solver, k, pair(k).phys->properties(), result.energies),
-		        pair(k).id1, pair(k).id2);
+		result.imposedWork
+		        += addForce(timber::storeForces(solver, k, pair(k).phys->properties(), result.energies),
+		                pair(k).id1, pair(k).id2);
 	for (int k = pairCount; k < count; ++k)
 		result.imposedWork += addForce(
 		        storeJoint(solver, k - pairCount, *scene, joint(k), result.joints), joint(k).id1, joint(k).id2);

@@ -61,8 +61,7 @@ void GlExtra_TimberJoints::render()
 			if (!b || j->anchors1.empty()) continue;
 			const Vector3r x = b->state->pos + b->state->ori * j->centre1();
 			if (j->isBroken()) drawCross(x, cross);
-			else if (j->intactSprings() < j->broken.size())
-				drawDot(x, amber, 1.5 * size);
+			else if (j->intactSprings() < j->broken.size()) drawDot(x, amber, 1.5 * size);
 			else drawDot(x, loadColor(math::min(Real(1), j->load())), size);
 		}
 	}

@@ -44,11 +44,7 @@ int JointEngine::append(const shared_ptr<TimberJoint>& joint)
 boost::python::list JointEngine::pyJoints() const { return listOf(joints); }
 boost::python::list JointEngine::pyBreaks() const { return listOf(breaks); }
 
-bool JointEngine::hasBody(Body::id_t id) const 
-{
-	return id >= 0 && size_t(id) < bodies.size() && bodies[id].exists;
-}
-
+bool JointEngine::hasBody(Body::id_t id) const { return id >= 0 && size_t(id) < bodies.size() && bodies[id].exists; }
 
 void JointEngine::collectBodies()
 {

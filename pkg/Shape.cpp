@@ -105,10 +105,7 @@ Real boxMargin(const Body& b, Real margin, Real dt)
 	return math::max(margin, math::min(maxMarginRatio * margin, fastBodySteps * displacement));
 }
 
-void Bo1_RoundedPolyhedron_Aabb::validate() const
-{
-	requirePositive("Bo1_RoundedPolyhedron_Aabb.margin", margin);
-}
+void Bo1_RoundedPolyhedron_Aabb::validate() const { requirePositive("Bo1_RoundedPolyhedron_Aabb.margin", margin); }
 
 void Bo1_RoundedPolyhedron_Aabb::go(
         const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound, const Se3r& se3, const Body* b)

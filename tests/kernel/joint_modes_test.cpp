@@ -150,8 +150,7 @@ struct Assembly {
 				return y > stiffPhase * stiffPhase ? y * y / (4 * y + 2) : 0;
 			});
 			const Vec6 momentum = modes.modes * g.cwiseProduct(eta);
-			history.push_back(
-			        { eta.dot(g.cwiseProduct(eta)) / 2, momentum.head<3>(), momentum.tail<3>() });
+			history.push_back({ eta.dot(g.cwiseProduct(eta)) / 2, momentum.head<3>(), momentum.tail<3>() });
 		}
 	}
 	/// The dashpots of one step. Returns the dissipated energy.
@@ -332,7 +331,8 @@ TEST(Oscillator, ImposedVelocity)
 			largest = std::max(largest, std::abs(x));
 		}
 		EXPECT_GT(largest, 0.01 * speed / omega) << turn;
-		EXPECT_LT(largest, 1.1 * speed / omega) << turn; // of a step with h omega = 1.1, the coarsest resolved one
+		EXPECT_LT(largest, 1.1 * speed / omega)
+		        << turn; // of a step with h omega = 1.1, the coarsest resolved one
 	}
 }
 

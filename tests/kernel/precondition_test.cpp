@@ -88,7 +88,9 @@ TEST(Preconditions, OfJointsAndStability)
 	springForces({ 1, 1 }, { axes, axes, none }, Vec3::UnitX(), first, end, total);
 	EXPECT_REFUSED(springForces({ 0, 1 }, { axes, axes, none }, Vec3::UnitX(), first, end, total));
 	EXPECT_REFUSED(springForces({ 1, -1 }, { axes, axes, none }, Vec3::UnitX(), first, end, total));
-	const auto softeningFrom = [](double stretch) { return SlipLaw(1, 0.5, { { 1, 1 }, { stretch, 1 }, { 3, 0 } }); };
+	const auto softeningFrom = [](double stretch) {
+		return SlipLaw(1, 0.5, { { 1, 1 }, { stretch, 1 }, { 3, 0 } });
+	};
 	EXPECT_GT(slipForce(softeningFrom(2), {}, Vec3::UnitX()).force.norm(), 0);
 	EXPECT_REFUSED(slipForce(softeningFrom(1), {}, Vec3::UnitX())); // softens before it yields
 	EXPECT_REFUSED(slipForce(softeningFrom(2), { none, -1 }, Vec3::UnitX()));
