@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <HealthCheck.hpp>
+#include <JointEngine.hpp>
 #include <bodies.hpp>
 #include <SceneCheck.hpp>
 #include <validation.hpp>
@@ -70,8 +71,9 @@ bool HealthCheck::haveBodiesChanged() const
 bool HealthCheck::hasSceneChanged()
 {
 	findParts(*scene, parts);
+	const JointEngine* joints = findEngine<JointEngine>(*scene);
 	return scene->doSort || checkedStep != scene->dt || checkedBodies.size() != scene->bodies->size()
-	        || checkedParts != parts || haveBodiesChanged();
+	        || checkedParts != parts || (joints && !joints->areJointsCurrent()) || haveBodiesChanged();
 }
 
 /// Boxes, contacts and mass of a body would remain those of its old geometry.

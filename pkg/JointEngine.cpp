@@ -90,7 +90,7 @@ void JointEngine::checkJoints() const
 /// Packs the joints again if there are others, or if attributes have changed.
 void JointEngine::packJoints()
 {
-	if (currentJoints()) return;
+	if (areJointsCurrent()) return;
 	checkJoints();
 	packed.reset(new timber::PackedJoints);
 	for (const shared_ptr<TimberJoint>& joint : joints)

@@ -55,11 +55,8 @@ class JointEngine : public GlobalEngine {
 
 public:
 	void action() override;
-	/// Address of the packed joints; null if joints were added or changed since.
-	const void* currentJoints() const
-	{
-		return packed->isCurrent && packed->joints.size() == joints.size() ? packed.get() : nullptr;
-	}
+	/// Whether no joint was added or changed since the last step.
+	bool areJointsCurrent() const { return packed->isCurrent && packed->joints.size() == joints.size(); }
 	int append(const shared_ptr<TimberJoint>&);
 	boost::python::list pyJoints() const;
 	boost::python::list pyBreaks() const;

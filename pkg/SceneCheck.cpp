@@ -276,8 +276,6 @@ void findParts(const Scene& scene, std::vector<const void*>& parts)
 	};
 	visitLive(scene.engines, [&](const Engine& engine) {
 		parts.push_back(&engine);
-		if (const auto* joints = dynamic_cast<const JointEngine*>(&engine))
-			parts.push_back(joints->currentJoints());
 		const auto* contactLoop = dynamic_cast<const ContactLoop*>(&engine);
 		const auto* trigger = contactLoop ? nullptr : dynamic_cast<const CollisionTrigger*>(&engine);
 		const Engine* inner = contactLoop ? contactLoop->loop.get()

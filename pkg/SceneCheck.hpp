@@ -20,7 +20,7 @@ void checkContacts(const Scene&);
 void checkStep(const Scene&);
 
 /// Addresses of the live engines, also of those inside others, of the dispatchers of loop and collider, and of their
-/// functors, and of the joints' numbers, in order.
+/// functors, in order.
 /// parts: out.
 void findParts(const Scene&, std::vector<const void*>& parts);
 

@@ -15,6 +15,7 @@ import pytest
 import yade_timber as yt
 from yade import O
 from yade_timber.base.errors import RunError
+from yade_timber.motion import GroundMotion
 from yade_timber.run.runner import Run
 
 HOUSE_SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "house.py"
@@ -69,6 +70,7 @@ def test_numbers_of_a_run():
         (TypeError, "give motion='shipped'", {"quake": True}),
         (ValueError, "no such file", {"motion": "nowhere"}),
         (ValueError, "did you mean 'shipped'?", {"motion": "shiped"}),
+        (ValueError, "seed: a GroundMotion is given; leave one of them out", {"motion": GroundMotion(0.01, np.ones((100, 3))), "seed": 3}),
     ],
 )
 def test_wrong_options_are_refused_in_a_line(error, words, options):

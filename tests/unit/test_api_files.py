@@ -77,7 +77,6 @@ def test_motions():
         (lambda: yt.motion(scales=2), "did you mean 'scale'"),
         (lambda: yt.motion(7), "motion 7: must be"),
         (lambda: yt.motion(yt.motion(), seed=3), "leave one of them out"),
-        (lambda: yt.run("A", motion=yt.motion(), seed=3, duration=0), "leave one of them out"),
         (lambda: yt.load_run("/nowhere"), "no finished run"),
     ],
 )

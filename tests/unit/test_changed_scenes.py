@@ -172,8 +172,3 @@ def test_samples_at_multiples_of_the_interval(dt, interval):
     start(dt=dt, steps=round(0.3 / dt) + 1, monitor=monitor)
     times = monitor.rows[:: len(monitor.columns())]
     assert all(abs(time - k * interval) <= dt / 2 * (1 + 1e-9) for k, time in enumerate(times)) and len(times) > 0.3 / interval - 1
-
-
-def test_no_margin():
-    with pytest.raises(ValueError, match="Bo1_RoundedPolyhedron_Aabb.margin = 0: it must be finite and > 0"):
-        yw.Bo1_RoundedPolyhedron_Aabb(margin=0)

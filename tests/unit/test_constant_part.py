@@ -140,7 +140,7 @@ def test_the_note_is_in_the_sentences():
     note = "constant part of 60 gal N-S (17 % of the peak) acts like a lean of 6.12 %; --detrend 0 removes it"
     noted = sample_summary(record={"note": note})
     assert record(noted) == f"the record's {note}"
-    assert sentence(town_summary("x", {"lot": noted})).endswith(f"Town x: 1 houses, 1 undamaged; the record's {note}")
+    assert sentence(town_summary("x", {"lot": noted}, noted.record)).endswith(f"Town x: 1 houses, 1 undamaged; the record's {note}")
     assert record(sample_summary(record={"source": "a"})) == record(sample_summary()) == ""
 
 

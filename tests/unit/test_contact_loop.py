@@ -209,9 +209,9 @@ def test_without_an_interaction_loop():
         O.step()
 
 
-@pytest.mark.parametrize("margin", [-1e-3, math.nan, math.inf])
+@pytest.mark.parametrize("margin", [-1e-3, 0, math.nan, math.inf])
 def test_margin_out_of_range(margin):
-    with pytest.raises(ValueError, match=r"Bo1_RoundedPolyhedron_Aabb.margin = .*: it must be >= 0"):
+    with pytest.raises(ValueError, match=r"Bo1_RoundedPolyhedron_Aabb.margin = .*: it must be finite and > 0"):
         yw.Bo1_RoundedPolyhedron_Aabb(margin=margin)
 
 

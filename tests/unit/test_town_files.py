@@ -7,6 +7,7 @@ import pytest
 from yade_timber.house import HouseError, build_house, load_house, load_town
 from yade_timber.house.town import Lot, check_places
 from yade_timber.motion import GroundMotion
+from yade_timber.motion.processing import in_axes
 
 GOOD = """name: harbour
 wave: {velocity: 500, direction: 90}
@@ -55,10 +56,10 @@ def test_motion_in_the_axes_of_a_turned_house():
     x.
     """
     motion = GroundMotion(0.01, [[1.0, 2.0, 3.0]] * 4)
-    assert Lot("", "A", 0, 0, 0).motion(motion) is motion
+    assert in_axes(motion, Lot("", "A", 0, 0, 0).axes) is motion
     for rotation, expected in ((90, (2, -1, 3)), (180, (-1, -2, 3)), (-90, (-2, 1, 3)), (360, (1, 2, 3)), (-270, (2, -1, 3))):
-        assert Lot("", "A", 0, 0, rotation).motion(motion).acceleration.tolist() == [list(expected)] * 4  # exact for right angles
-    turned = Lot("", "A", 0, 0, 30).motion(motion).acceleration
+        assert in_axes(motion, Lot("", "A", 0, 0, rotation).axes).acceleration.tolist() == [list(expected)] * 4  # exact for right angles
+    turned = in_axes(motion, Lot("", "A", 0, 0, 30).axes).acceleration
     assert np.linalg.norm(turned[0]) == pytest.approx(np.sqrt(14))
 
 
