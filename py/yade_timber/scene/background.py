@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Changes to a scene while YADE computes it in the background.
+"""Changes and queries of a scene while YADE computes it in the background.
 
-YADE's containers are not locked: a body that is erased within a step ends the process. A scene that is replaced within
-a step blocks it for ever if the step runs Python code. `O.pause()` returns before the step ends. `guard` lets such
-changes wait for the end of the step. It also refuses a body's shape, material or state that the package's engines
-cannot deal with.
+YADE's containers and the lists of the engines are not locked: a body that is erased, or a list that is read, within a
+step ends the process. A scene that is replaced within a step blocks it for ever if the step runs Python code.
+`O.pause()` returns before the step ends. `guard` lets what GUARDED lists wait for the end of the step. It also refuses
+a body's shape, material or state that the package's engines cannot deal with.
+
+Threads take turns to start, interrupt and await a run: what is guarded waits while another thread is in `O.wait()`.
 """
 import threading
 from contextlib import contextmanager
@@ -16,6 +18,9 @@ from ..plugin import compiled
 
 BODY_PARTS = ("shape", "material", "state")
 O = yw.Omega()
+_turn = threading.RLock()
+_pauses = 0
+"""Number of calls of `O.pause`. [-]"""
 
 
 @contextmanager
@@ -24,14 +29,16 @@ def between_steps():
     if _computes_steps():
         yield
         return
-    limits, ended = (O.stopAtIter, O.stopAtTime), not O.running
-    compiled.finish_step()
-    ended = ended or limits != (O.stopAtIter, O.stopAtTime)  # the run had reached its last step
-    try:
-        yield
-    finally:
-        if not ended:
-            O.run()
+    with _turn:
+        pauses, limits, goes_on = _pauses, (O.stopAtIter, O.stopAtTime), O.running
+        compiled.finish_step()
+        # the last step changes the limits, and one that failed was not left
+        goes_on = goes_on and limits == (O.stopAtIter, O.stopAtTime) and O.subStep < 0
+        try:
+            yield
+        finally:
+            if goes_on and pauses == _pauses:
+                O.run()
 
 
 def _computes_steps():
@@ -39,64 +46,94 @@ def _computes_steps():
     return isinstance(threading.current_thread(), threading._DummyThread)
 
 
-def _finish_step():
-    """Wait for the end of the present step, unless this thread computes it."""
-    if not _computes_steps():
-        compiled.finish_step()
-
-
 @contextmanager
 def _after_step():
     """Context for methods that replace the scene: the step is done; a run in the background ends."""
-    _finish_step()
-    yield
+    with _turn:
+        compiled.finish_step()
+        yield
 
 
 @contextmanager
 def _until_step():
     """Context in which `O.wait` also waits for the last step after `O.pause()`."""
-    yield
-    _finish_step()
+    with _turn:
+        yield
+        compiled.finish_step()
 
 
 @contextmanager
 def _until_started():
     """Context in which `O.run` returns when the first step is done: YADE must not end a run whose thread has not
     started."""
-    before = O.iter
-    yield
-    if not _computes_steps():
+    with _turn:
+        before = O.iter
+        yield
         compiled.await_step(before)
 
 
-METHODS = (
+GUARDED = (
     (yw.BodyContainer, between_steps, ("append", "appendClumped", "clump", "addToClump", "releaseFromClump", "erase",
                                        "insertAtId", "replace", "clear", "deleteClumpBody", "deleteClumpMember")),
     (yw.InteractionContainer, between_steps, ("erase", "eraseNonReal", "clear")),
     (yw.Omega, _after_step, ("reset", "resetThisScene", "resetCurrentScene", "resetAllScenes", "reload", "load",
-                             "loadTmp", "switchScene", "switchToScene")),
+                             "loadTmp", "stringToScene", "switchScene", "switchToScene")),
+    (yw.Omega, between_steps, ("save", "saveTmp", "sceneToString")),
     (yw.Omega, _until_step, ("wait",)),
     (yw.Omega, _until_started, ("run",)),
+    (yw.Serializable, between_steps, ("dict",)),
+    (yw.ContactForces, between_steps, ("largestEigenvalue",)),
+    (yw.HealthCheck, between_steps, ("check",)),
+    (yw.HouseMonitor, between_steps, ("energy", "peak", "rows")),
+    (yw.StructureMonitor, between_steps, ("load", "opening", "pull", "rows", "shear")),
+    (yw.JointEngine, between_steps, ("append", "breaks", "joints")),
+    (yw.TimberJoint, between_steps, ("broken", "forces", "largestStretches", "load", "plasticStretches", "springs",
+                                     "stretches")),
+    (yw.ManifoldGeom, between_steps, ("points",)),
+    (yw.ManifoldPhys, between_steps, ("points",)),
+    (compiled, between_steps, ("packed_contacts", "packed_joints", "packed_placements", "packed_springs")),
 )
-"""Class, context, methods that are called within it; which there are depends on YADE's version."""
+"""Class or module, context, its methods and attributes that are called and read within it; which there are depends on
+YADE's version."""
 
 
 def guard():
-    """Install the rules of this module on YADE's containers and bodies."""
-    for cls, context, names in METHODS:
-        for name in filter(lambda name: hasattr(cls, name), names):
-            setattr(cls, name, _within(context, getattr(cls, name)))
+    """Install the rules of this module on YADE's containers and bodies and on the package's classes."""
+    for owner, context, names in GUARDED:
+        for name in filter(lambda name: hasattr(owner, name), names):
+            setattr(owner, name, _within(context, getattr(owner, name)))
     for name in BODY_PARTS:
         setattr(yw.Body, name, _checked(name, getattr(yw.Body, name)))
     yw.State.angVel = _with_momentum(yw.State.angVel)
+    engines = yw.Omega.engines
+    yw.Omega.engines = property(engines.fget, _within(between_steps, engines.fset), doc=engines.__doc__)
+    yw.Omega.pause = _counted(yw.Omega.pause)
 
 
-def _within(context, method):
-    def call(self, *args, **options):
+def _within(context, part):
+    """A function, or a property with its getter, that waits within a context, but not in the thread of the steps."""
+    if isinstance(part, property):
+        return property(_within(context, part.fget), part.fset, doc=part.__doc__)
+
+    def call(*args, **options):
+        if _computes_steps():
+            return part(*args, **options)
         with context():
-            return method(self, *args, **options)
+            return part(*args, **options)
 
-    call.__name__, call.__doc__ = method.__name__, method.__doc__
+    call.__name__, call.__doc__ = part.__name__, part.__doc__
+    return call
+
+
+def _counted(pause):
+    """`O.pause`, after which no run goes on that `between_steps` has interrupted."""
+
+    def call(omega):
+        global _pauses
+        pause(omega)
+        _pauses += 1
+
+    call.__name__, call.__doc__ = pause.__name__, pause.__doc__
     return call
 
 

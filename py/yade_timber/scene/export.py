@@ -7,11 +7,13 @@ import yade.wrapper as yw
 
 from ..base.atomic_write import write_text
 from . import engines
+from .background import between_steps
 from .joints import joins_bodies
 
 O = yw.Omega()
 
 
+@between_steps()
 def export_scene(path):
     """Write the loaded scene to a JSON file: elements, materials with friction per pair, joints, gravity.
 

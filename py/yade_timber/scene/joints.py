@@ -8,6 +8,7 @@ from yade.minieigenHP import Vector2, Vector3
 
 from ..house.model import JointSpec
 from . import arguments
+from .background import between_steps
 from .engines import find_engine
 
 PER_JOINT = {"spring": False, "joint": True}
@@ -35,6 +36,7 @@ class SlipLaw:
     friction_share: float = 0.3
 
 
+@between_steps()
 def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strength=5880.0, per="spring", kind="",
             name="", damping_ratio=0.0, slip=None):
     """Join two bodies with springs.

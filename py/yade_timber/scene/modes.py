@@ -19,6 +19,7 @@ from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import ArpackError, eigsh
 
 from ..plugin import compiled
+from .background import between_steps
 
 SHIFT = -1.0
 """Eigenvalues nearest to this are found first [1/s2]; below zero, since a wreck has many at zero."""
@@ -66,6 +67,7 @@ def springs():
     return Springs(np.frombuffer(pairs, "i4").reshape(-1, 2), arm, values[:, 6:9], values[:, 9:11], values[:, 11:])
 
 
+@between_steps()
 def natural_modes(share=0.05):
     """Modes of effective mass east or north >= `share` of the free mass, unstable ones and long periods first.
 

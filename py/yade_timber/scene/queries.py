@@ -33,6 +33,7 @@ class Energies(dict):
         return "\n".join(f"{name:17} {value:11.4g} J" for name, value in self.items())
 
 
+@between_steps()
 def contacts(id1, id2):
     """Contact points between two bodies, with the forces of the last step.
 
