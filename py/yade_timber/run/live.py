@@ -10,6 +10,7 @@ import yade.wrapper as yw
 
 from ..base.errors import InputError, RunError
 from ..scene import viewer
+from ..scene.background import between_steps
 from .progress import Status
 from .runner import Run
 
@@ -55,7 +56,8 @@ class LiveRun(Run):
         """Write the results of the run up to now. cut_off: as in Run"""
         now = time.perf_counter()
         self.wall_s, self._since = self.wall_s + now - self._since, now
-        super().write(cut_off)
+        with between_steps():
+            super().write(cut_off)
 
     def is_loaded(self):
         """Whether the scene in YADE is this run's, also after it was saved and loaded again."""
