@@ -24,6 +24,8 @@ from yade_timber.motion import default_motion
 from yade_timber.scene import engines, scenario
 from yade_timber.study.options import non_negative, positive, run_script
 
+NO_MARGIN = 1e-9
+"""Of boxes that the collider extends. [m]"""
 O = yw.Omega()
 
 EMPTY, HOUSE, DEFAULT = "empty step", "whole step", "empty step, collider in each step"
@@ -74,7 +76,7 @@ def build_empty(placed, dt, verlet):
         body.dynamic = dynamic
         O.bodies.append(body)
     collider = yw.InsertionSortCollider(
-        [yw.Bo1_RoundedPolyhedron_Aabb(margin=engines.BOUND_MARGIN if verlet == 0 else 0)], verletDist=verlet
+        [yw.Bo1_RoundedPolyhedron_Aabb(margin=engines.BOUND_MARGIN if verlet == 0 else NO_MARGIN)], verletDist=verlet
     )
     O.engines = [yw.ForceResetter(), collider, yw.InteractionLoop([], [], []),
                  yw.NewtonIntegrator(damping=0, exactAsphericalRot=True)]
