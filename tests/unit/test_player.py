@@ -201,7 +201,7 @@ def test_the_japanese_result_judges_all_structures():
         joints={"total": 8}, broken={"total": 7, "damaged_at_start": {"total": 1}}, peak_drift={"storey1": {"ns": 0.05, "ew": 0.01}},
         structures=others, events=[Event(2.6, StructureFallen("entrance"))])
     assert japanese.result(found) == (
-        "危険。最大層間変形角 1/20（南北、1 階）、残留変形角 1/1000 未満。玄関は 2.6 秒に倒壊。shedは補修可能（最大層間変形角 1/100）。"
+        "危険。最大層間変形角 1/20（南北、1 階）、残留変形角 1/1000 未満。自重による損傷。玄関は 2.6 秒に倒壊。shedは補修可能（最大層間変形角 1/100）。"
         "接合部 8 か所のうち 7 か所が破断（ほかに最初から破断 1 か所）。")
 
 
@@ -213,6 +213,13 @@ def test_the_japanese_result_has_all_warnings():
         events=[Event(12.0, ColumnsLost(1, 90)), Event(13.5, SnowFallen("", "west", "roof"))])
     parts = ("危険（最後に傾いている）", "なお ±1/50（南北）で揺れている", "柱 90 本のうち1 本が倒れた、3 本が外れた（12.0 秒から）", "雪は 13.5 秒から落下", "強い揺れ（18.8 秒）の前で計算を終了",
              "玄関は補修可能（最大層間変形角 1/1000 未満）")
+    assert [part for part in parts if part not in japanese.result(found)] == [], japanese.result(found)
+
+
+def test_the_japanese_result_says_what_is_not_to_be_relied_on():
+    found = sample_summary(cut_off="body 3", duration_s=5.9, earthquake=True, record={"note": "constant part"},
+                           solver={"unconverged_steps": 7, "worst_change_j": 1e9}, events=[Event(0.9, OwnWeight(False, {}))])
+    parts = ("5.90 秒で計算を打ち切り、以下の結果は信頼できない", "揺れの前に自重で損傷", "一定の成分", "7 ステップが収束していない")
     assert [part for part in parts if part not in japanese.result(found)] == [], japanese.result(found)
 
 

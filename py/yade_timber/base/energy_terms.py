@@ -19,7 +19,7 @@ DISSIPATED = (Term("dashpot_normal", "contact dashpots,\nnormal", colors.SKY_BLU
               Term("dashpot_shear", "contact dashpots,\ntangential", colors.BLUE),
               Term("friction", "friction", colors.AMBER), Term("broken_springs", "broken joints", colors.ORANGE),
               Term("lost_contacts", "contacts lost\nunder load", colors.PURPLE),
-              Term("joint_dashpot", "joint dashpots", colors.GREEN),
+              Term("joint_dashpot", "joint dashpots", colors.INDIGO),
               Term("joint_yield", "yielding joints", colors.GREY))
 IMPOSED = "imposed_velocity"
 SUPPLIED = ("ground_motion", IMPOSED)

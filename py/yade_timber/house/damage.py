@@ -3,6 +3,7 @@
 import numpy as np
 
 from .errors import HouseError
+from .schema import fail
 
 KINDS = ("column_beam", "brace_beam")
 
@@ -13,6 +14,8 @@ def apply_damage(joints, structures, damage):
     """
     for i, region in enumerate(damage["regions"]):
         structure = structures[region["structure"] or next(iter(structures))]
+        if not any(region[kind] for kind in KINDS):
+            fail(region.where, f"damage.regions[{i + 1}]", f"give {' or '.join(KINDS)}: the joints to be broken")
         for kind in KINDS:
             if region[kind] is not None:
                 _break(joints, structure, region, kind, damage["end"], f"damage.regions[{i + 1}].{kind}")
@@ -23,11 +26,12 @@ def apply_damage(joints, structures, damage):
 def _break(joints, structure, region, kind, default_end, path):
     wanted, side, storey = region[kind], region["side"], region["storey"]
     end = wanted["end"] or default_end
-    candidates = [j for j in joints
-             if j.group == structure.name and j.kind == kind and j.storey == storey and side in j.side and j.end == end]
+    candidates = [j for j in joints if j.group == structure.name and j.kind == kind and j.storey == storey
+                  and side in j.side and j.end == end and not j.broken]
     if wanted["count"] > len(candidates):
         raise HouseError(f"{wanted.at('count')}: {path}: {wanted['count']} joints are to be broken, but the {side} wall"
-                         f" of {structure.name} has {len(candidates)} at the {end} of storey {storey}; lower the count")
+                         f" of {structure.name} has {len(candidates)} whole ones at the {end} of storey {storey}; lower"
+                         " the count")
     for joint in nearest_to_middle(candidates, structure, side)[: wanted["count"]]:
         joint.broken = True
 

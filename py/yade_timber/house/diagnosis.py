@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..base.gravity import weight_of
-from ..base.joint_kinds import WALL_COLUMN
+from ..base.joint_kinds import WALL_COLUMN, WALL_KINDS
 from . import diagnosis_tables as rules
 from .loads import bay_length, upper_area
 from .weight import column_axes, floor_area
@@ -35,11 +35,12 @@ class RatedBay:
 def diagnose(model):
     """The part `diagnosis` of summaries: the least iw and wall quantity ratio, where they are, and of each structure.
 
-    None for what the rules do not give: beyond three storeys, without floor area.
+    None for what the rules do not give: a main structure of more than three storeys, or without floor area.
     """
     structures = {group: _structure(model, group) for group, storeys in model.storey_levels.items() if storeys}
-    iw, iw_at = _least(structures, "iw")
-    ratio, ratio_at = _least(structures, "wall_quantity_ratio")
+    is_rated = _least(dict(list(structures.items())[:1]), "iw")[0] is not None  # the main structure
+    rated = structures if is_rated else {}
+    (iw, iw_at), (ratio, ratio_at) = _least(rated, "iw"), _least(rated, "wall_quantity_ratio")
     totals = {"iw": iw, "iw_at": iw_at, "judgement": judgement(iw), "wall_quantity_ratio": ratio,
              "wall_quantity_at": ratio_at, "broken_from_start": sum(joint.broken for joint in model.joints),
              "structures": structures}
@@ -224,7 +225,8 @@ def _sheets(model, group):
 def _braces(model, group):
     """(column, column, multiplier) of braces whose ends are joined: the columns nearest to foot and head."""
     columns = model.of_kind("column", group=group)
-    for brace in model.of_kind("brace", group=group):
+    torn = {joint.a for joint in model.joints if joint.broken and model.element(joint.b).kind != "column"}
+    for brace in (brace for brace in model.of_kind("brace", group=group) if brace.name not in torn):
         ends = [brace.vertices[pick(brace.vertices[:, 2])][:2] for pick in (np.argmin, np.argmax)]
         here = [column for column in columns if column.storey == brace.storey]
         foot, head = (min(here, key=lambda column: np.hypot(*(column.solid.centroid[:2] - end))) for end in ends)
@@ -249,7 +251,7 @@ def _uplift(model, group, bays):
     The corrections for the direction of braces are left out.
     """
     storeys = sorted(model.storey_levels[group])
-    columns = {(c.storey, *np.round(c.solid.centroid[:2], 3)): c for c in model.of_kind("column", group=group)}
+    columns = {(c.storey, c.name.rpartition(".")[2]): c for c in model.of_kind("column", group=group)}
     strengths = _foot_strengths(model)
     needs = [(n_value(columns, key, bays, storeys), strengths.get(column.name, 0.0), column.name)
              for key, column in columns.items()]
@@ -262,9 +264,9 @@ def _uplift(model, group, bays):
 
 
 def n_value(columns, key, bays, storeys):
-    """N = sum of A B over a column and those above, less L; the larger direction. columns: {(storey, x, y): ...}"""
-    storey, x, y = key
-    stack = [columns[level, x, y] for level in storeys if level >= storey and (level, x, y) in columns]
+    """N = sum of A B over a column and those above, less L; the larger direction. columns: {(storey, node): ...}"""
+    storey, node = key
+    stack = [columns[level, node] for level in storeys if level >= storey and (level, node) in columns]
     corner = [len(column.side) > 1 for column in stack]
     vertical = rules.VERTICAL["lower" if len(stack) > 1 else "top"][corner[0]]
     sums = [sum(rules.RESTRAINT[outer] * _difference(column, bays, axis) for column, outer in zip(stack, corner))
@@ -285,7 +287,7 @@ def _foot_strengths(model):
     """{column: strength of its joints at the foot in tension [kN]}; broken joints have none."""
     strengths = {}
     for joint in model.joints:
-        if joint.kind == "column_beam" and joint.end == "bottom":
+        if joint.end == "bottom" and joint.kind not in WALL_KINDS and model.element(joint.a).kind == "column":
             whole = joint.strength * (1 if joint.per == "joint" else len(joint.points))
             strengths[joint.a] = strengths.get(joint.a, 0.0) + (0.0 if joint.broken else whole / 1000)
     return strengths

@@ -34,9 +34,16 @@ def kinds_of(rule):
     return [tuple(sorted(pair, key=lambda kind: (*END_JOINED, kind).index(kind))) for pair in pairs.values()]
 
 
-def check_joint_rules(rules):
-    """HouseError for two rules for the same kinds of members, and for a kind of joint that only walls have."""
+def check_joint_rules(rules, types):
+    """HouseError for two rules for the same kinds of members, for a kind of joint that only walls have, and for a
+    strength that a yielding joint cannot have."""
     for name, rule in rules.items():
+        table = types[rule["type"]]
+        if table["law"] == "slip" and rule["strength"] is not None:
+            most = rule["number"] * rule["share"] * table["kn"] * table["softening_stretch"]
+            if not rule["strength"] < most:
+                fail(rule.at("strength"), f"joints.{name}.strength", f"must be below number x share x kn x"
+                     f" softening_stretch = {most:g} N with law slip, got {rule['strength']:g}")
         if rule["kind"] in WALL_KINDS:
             fail(rule.at("kind"), f"joints.{name}.kind",
                  f"'{rule['kind']}' is the kind of the joints of sheathed walls; choose another name")

@@ -72,8 +72,9 @@ layer = Variants("layer", {
     "floor": _layer("floor", thickness=length(0.01, 2.0), areas=ListOf(area, most=MAX_AREAS, default=None)),
     "roof": roof
 })
+OPENINGS = ("window", "door")
 wall_line = Record({"along": Choice(("x", "y")), "at": nodes, "from": node, "to": node,
-                    "type": ListOf(word(), scalar=True, most=5), "opening": Choice(("none", "window", "door"), "none"),
+                    "type": ListOf(word(), scalar=True, most=5), "opening": Choice(("none", *OPENINGS), "none"),
                     "storeys": storeys})
 _slab_load = Number("kN/m2", 0.05, 20.0, default=None)
 loads = Record({"roof": _slab_load, "floor": _slab_load, "wall": Number("kN/m2", 0.0, 20.0, default=None)}, default={})

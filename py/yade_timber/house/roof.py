@@ -197,26 +197,26 @@ def _posts(structure, layer, elements, joints):
     eave = next((joint for joint in joints if name in (joint.a, joint.b) and (joint.a in plates or joint.b in plates)),
                 None)
     high = _high_plates(pitched_plan(structure, layer), plates.values()) if eave else []
-    if not high or {eave.a, eave.b} & {plate.name for plate in high}:
+    if not high or {eave.a, eave.b} & {plate.name for plate, *_ in high}:
         raise HouseError(f"{layer.table.where}: {name}: a mono-pitch roof lies on the beams of its eave and stands on"
                          " posts over those of the wall opposite; add beams below both and a rule of `joints` between"
                          " roof and beam")
-    return [_post_row(eave, name, plate) for plate in high]
+    return [_post_row(eave, name, *part) for part in high]
 
 
 def _high_plates(plan, plates):
-    """Those farthest from the eave, of the plates below the plan."""
+    """[(plate, lowest, highest x and y of its part below the plan)] of those farthest from the eave."""
     d, e = plan.distance(*plan.sides)
-    centres = ((plate.solid.centroid[:2], plate) for plate in plates)
-    runs = [(e - d @ centre, plate) for centre, plate in centres
-            if (plan.low < centre).all() and (centre < plan.high).all()]
-    most = max((run for run, _ in runs), default=0.0)
-    return [plate for run, plate in runs if most - run < SEAT]
+    bounds = [(plate, np.array(plate.solid.bounds)[:, :2]) for plate in plates]
+    parts = [(plate, np.maximum(low, plan.low), np.minimum(high, plan.high)) for plate, (low, high) in bounds]
+    runs = [(e - d @ (low + high) / 2, plate, low, high) for plate, low, high in parts if (high - low > SEAT).all()]
+    most = max((run for run, *_ in runs), default=0.0)
+    return [part for run, *part in runs if most - run < SEAT]
 
 
-def _post_row(eave, slab, plate):
-    """JointSpec of the posts on a plate. eave: that of the slab on a plate of its eave"""
-    (x0, y0, _), (x1, y1, z) = plate.solid.bounds
+def _post_row(eave, slab, plate, low, high):
+    """JointSpec of the posts on a part of a plate. eave: that of the slab on a plate of its eave"""
+    (x0, y0), (x1, y1), z = low, high, plate.solid.bounds[1][2]
     points = np.array([[x0, y0, z], [x1, y0, z], [x1, y1, z], [x0, y1, z]])
     pair = {"a": slab, "b": plate.name} if eave.a == slab else {"a": plate.name, "b": slab}
     return replace(eave, **pair, points=points, area=(x1 - x0) * (y1 - y0), side=plate.side,

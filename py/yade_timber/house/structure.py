@@ -133,9 +133,10 @@ def _origin(table, local, others, name):
     """World position (2,) [m] of the structure's grid origin."""
     place = table["place"]
     if place["origin"] is not None:
-        if place["shift"]:
-            raise HouseError(f"{place.at('shift')}: structures.{name}.place.shift: belongs to 'beside'; change the"
-                             " origin instead")
+        for key, nothing in (("side", "east"), ("align", "middle"), ("gap", 0.0), ("shift", 0.0)):
+            if place[key] != nothing:
+                raise HouseError(f"{place.at(key)}: structures.{name}.place.{key}: belongs to 'beside'; change the"
+                                 " origin instead")
         return np.array(place["origin"])
     if place["beside"] not in others:
         earlier = ", ".join(others) or "none yet"

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .layout import OPENINGS
 from .nails import nailed_wall
 from .schema import fail
 
@@ -46,6 +47,8 @@ def check_wall_types(types):
     """HouseError for none or several descriptions of a type's shear, and for points or drifts that do not ascend."""
     for name, table in types.items():
         path = f"wall_types.{name}"
+        if name in OPENINGS:
+            fail(table.where, path, "the name of an opening; choose another one")
         forms = [key for key in FORMS if table[key] is not None]
         if len(forms) > 1:
             fail(table.at(forms[1]), path, f"give one of {', '.join(FORMS)}; got {' and '.join(forms)}")

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Weight of a house by storey, for summaries and drawings. Fixed members (foundations, anchored sills) do not count."""
+from collections import Counter
+
 import numpy as np
 
 from ..base.gravity import weight_of
@@ -56,9 +58,11 @@ def _share(element, storey):
 
 
 def sentence(weights):
-    """'weighs 83 kN, 0.70 kN per m2 of floor; storey 1 carries 70 kN, storey 2 28 kN', of the first structure."""
+    """'weighs 83 kN, 0.70 kN per m2 of floor; carried by storey 1 70 kN, storey 2 28 kN', sums over the structures."""
     per_area = ("" if weights["per_floor_area_kn_m2"] is None
                 else f", {weights['per_floor_area_kn_m2']:.2f} kN per m2 of floor")
-    storeys = next(iter(weights["storeys"].values()), {})
-    carried = ", ".join(f"storey {name} {values['carried_kn']:.0f} kN" for name, values in storeys.items())
+    storeys = Counter()
+    for structure in weights["storeys"].values():
+        storeys.update({name: values["carried_kn"] for name, values in structure.items()})
+    carried = ", ".join(f"storey {name} {load:.0f} kN" for name, load in sorted(storeys.items()))
     return f"weighs {weights['total_kn']:.0f} kN{per_area}; carried by {carried}"

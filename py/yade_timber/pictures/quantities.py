@@ -169,7 +169,9 @@ def draw_modes(axis, results):
                          f" {100 * mode.mass_share[direction]:.0f} % of the mass")
     if results.summary.collapsed:
         lines.append("after: none, the house has collapsed")
-    axis.text(0.97, 0.04, "\n".join(lines) or "no mode found", transform=axis.transAxes, va="bottom", ha="right",
+    early = results.summary.quantities.modes.before is None
+    nothing = "not computed: the run ends before 1 s" if early else "no mode found"
+    axis.text(0.97, 0.04, "\n".join(lines) or nothing, transform=axis.transAxes, va="bottom", ha="right",
               fontsize=7)
     axis.set_xlim(right=max(2.2, axis.get_xlim()[1]))
     levels = len(results.summary.quantities.storeys)

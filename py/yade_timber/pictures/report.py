@@ -74,6 +74,7 @@ def page(frames, results):
         plans=picture(report_pictures.plans(frames, failures)),
         motion=motion(frames, summary),
         spectra=picture(report_pictures.motion(frames)) if frames.motion else None,
+        periods=summary.quantities.modes.before is not None,
         until=before(summary.quantities),
         storeys=storeys(summary),
         shots=picture(*report_pictures.shots(frames)),

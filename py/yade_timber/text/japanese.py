@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Summaries and events in Japanese, for the player. Functions, numbers and names are the same as in English."""
 from ..recording.verdict import COLLAPSED, DAMAGE, UNDAMAGED, passed
+from . import english
 from .english import SMALL, ratio
 
 DIRECTIONS = {"ns": "南北", "ew": "東西"}
@@ -20,9 +21,36 @@ def title(summary):
 
 def result(summary):
     """Outcome: place in an ensemble, verdict, peak and residual drift, other structures, joints, columns, snow."""
-    parts = [outcome(summary), moving(summary), *structures(summary), joints(summary), columns(summary), snow(summary),
-             early(summary)]
+    parts = [cut_off(summary), outcome(summary), other_walls(summary), weight(summary), moving(summary),
+             *structures(summary), joints(summary), columns(summary), snow(summary), record(summary), early(summary),
+             unconverged(summary)]
     return ensemble(summary) + "。".join(filter(None, parts)) + "。"
+
+
+def cut_off(summary):
+    return f"{summary.duration_s:.2f} 秒で計算を打ち切り、以下の結果は信頼できない" if summary.cut_off else ""
+
+
+def other_walls(summary):
+    other = summary.walls and summary.walls.other
+    return (f"耐力壁の水準 {other.level} では{OUTCOMES[other.verdict]}"
+            if other and other.verdict != summary.main.verdict else "")
+
+
+def weight(summary):
+    """Damage before the shaking; without an earthquake the cause."""
+    cause = "自重と積雪" if summary.snow else "自重"
+    if summary.earthquake:
+        return f"揺れの前に{cause}で損傷" if any(event.kind == "own_weight" for event in summary.events) else ""
+    return f"{cause}による損傷" if summary.main.verdict != UNDAMAGED else ""
+
+
+def record(summary):
+    return "記録の加速度に一定の成分がある" if summary.record and summary.record.note else ""
+
+
+def unconverged(summary):
+    return f"{summary.solver.unconverged_steps} ステップが収束していない" if english.unconverged(summary) else ""
 
 
 def outcome(summary):
