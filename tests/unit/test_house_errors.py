@@ -120,7 +120,7 @@ MISTAKES = {  # mistake: (old text, new text, line of the new text that the mess
     "overlapping lines": ("to: 1, cut: true", "to: 1", 15, ["sill", "100 mm", "x 0.000, y 0.000"]),
     "overlapping braces": ("runs: [[0, 1]]", "runs: [[0, 1], [1, 0]]", 25, ["store.brace1.EW.y0.1-0", "store.brace1.EW.y0.0-1"]),
     "roof not last": ("type: flat, thickness: 0.1}\n", "type: flat, thickness: 0.1}\n      - {layer: floor, thickness: 0.1}\n", 21, ["stack[5]"]),
-    "too much damage": ("snow: {depth: 0.5}", "damage: {regions: [{side: east, storey: 1, column_beam: {count: 3}}]}", 32, ["damage.regions[1].column_beam", "3 joints", "has 2 at the bottom"]),
+    "too much damage": ("snow: {depth: 0.5}", "damage: {regions: [{side: east, storey: 1, column_beam: {count: 3}}]}", 32, ["damage.regions[1].column_beam", "3 joints", "has 2 whole ones at the bottom"]),
     "damage to nowhere": ("snow: {depth: 0.5}", "damage: {regions: [{structure: barn, side: east, storey: 1}]}", 32, ["damage.regions[1].structure", "'barn'", "store"]),
     "snow too deep": ("depth: 0.5", "depth: 50", 32, ["snow.depth", "[0, 20] m"]),
     "section in mm": ("section: 0.1, grid", "section: 105, grid", 22, ["columns[1].section", "(0.01, 1] m", "105 mm = 0.105"]),
