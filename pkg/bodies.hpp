@@ -20,12 +20,16 @@ inline Body* bodyAt(const Scene& scene, Body::id_t id)
 	return id >= 0 && size_t(id) < bodies.size() ? bodies[id].get() : nullptr;
 }
 
-/// The first engine of that class, or null. alsoDead: whether it may be switched off.
+/// The first engine of that class, or null. alsoDead: without one, the first that is switched off.
 template <class E> E* findEngine(const Scene& scene, bool alsoDead = false)
 {
-	for (const shared_ptr<Engine>& e : scene.engines)
-		if (E* match = e->dead && !alsoDead ? nullptr : dynamic_cast<E*>(e.get())) return match;
-	return nullptr;
+	E* dead = nullptr;
+	for (const shared_ptr<Engine>& e : scene.engines) {
+		E* match = e->dead && (!alsoDead || dead) ? nullptr : dynamic_cast<E*>(e.get());
+		if (match && !e->dead) return match;
+		if (match) dead = match;
+	}
+	return dead;
 }
 
 /// YADE's own parallel loops run on one thread while an object of this class exists: they are short, and OpenMP's

@@ -126,6 +126,8 @@ def test_energies_of_engines_that_are_switched_off():
     O.run(10, True)
     assert work > 0.1 and yt.energy()["ground_motion"] == pytest.approx(work, rel=1e-9)
     assert abs(yt.energy_residual()) < 1e-6 * work
+    O.engines = O.engines + [yw.GroundMotionEngine(step=0.01, acceleration=[(0, 0, 0)] * 3)]
+    assert yt.energy()["ground_motion"] == 0, "that of the engine that acts"
 
 
 def test_a_changed_step_leaves_the_work_of_the_ground_motion():
