@@ -17,8 +17,9 @@ import pytest
 
 sys.path.append(str(Path(__file__).resolve().parents[2] / "py"))
 
-from yade_timber.base.lock import is_locked, locked
+from yade_timber.base.lock import LOCK, is_locked, locked
 from yade_timber.study.batch import read_table
+from yade_timber.study.driver import DRIVER
 
 SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
 TABLE = """house  description  snow  set                                dt    duration
@@ -94,14 +95,16 @@ def test_stopped_killed_resumed(folder):
     assert "runs to do" not in output and "3 done, 1 failed" in output, output
 
 
-def test_a_run_of_another_process_is_left_alone(folder):
+@pytest.mark.parametrize("name", [LOCK, DRIVER])
+def test_a_run_of_another_process_is_left_alone(folder, name):
+    """Of a run, or of another driver whose YADE has not started yet."""
     row = next(row for row in read_table(folder / "runs.txt") if row.description == "long")
     run = folder / "results" / "runs" / row.name
     run.mkdir(parents=True)
-    with locked(run):
+    with locked(run, name):
         process = start(folder, "--only", row.name)
         output, _ = process.communicate(timeout=60)
-    assert process.returncode == 1 and "another process" in output and {path.name for path in run.iterdir()} == {".lock"}
+    assert process.returncode == 1 and "another process" in output and {path.name for path in run.iterdir()} == {name}
 
 
 @pytest.mark.parametrize(

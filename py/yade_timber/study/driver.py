@@ -123,6 +123,8 @@ def _stop(processes):
     deadline = time.monotonic() + SAVE_TIME
     while any(not process.has_ended() for process in processes) and time.monotonic() < deadline:
         time.sleep(POLL)
+    for process in processes:
+        process.lock.close()
 
 
 class _Process:
