@@ -22,7 +22,8 @@ def roof_motion(model, axis):
     roofs = [body for body in O.bodies if body.shape.kind == "roof"]
     start, found = [body.state.pos[axis] for body in roofs], []
     for _ in range(SAMPLES):
-        O.run(EVERY, True)
+        for _ in range(EVERY):
+            O.step()
         found.append(np.mean([body.state.pos[axis] - before for body, before in zip(roofs, start)]))
     return np.array(found)
 
