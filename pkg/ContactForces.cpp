@@ -87,9 +87,9 @@ void ContactForces::collectBodies()
 	syncForces(*scene);
 	timber::forAll(count, [this](int id) { collectBody(id); });
 	for (const shared_ptr<Body>& b : *scene->bodies)
-		if (b && !isFree(*b->state)) // forces of joints
-			imposedWork += imposedWorkOf(
-			        b->getId(), scene->forces.getForce(b->getId()), scene->forces.getTorque(b->getId()));
+		if (b && !isFree(*b->state) && !(b->state->vel.isZero(0) && b->state->angVel.isZero(0)))
+			imposedWork += imposedWorkOf(b->getId(), scene->forces.getForce(b->getId()),
+			        scene->forces.getTorque(b->getId())); // forces of joints
 }
 
 /// Bodies must not be placed deeper in each other than weights press them: their springs would throw them apart.

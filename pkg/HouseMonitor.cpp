@@ -169,7 +169,8 @@ void HouseMonitor::record()
 		const Real ns = (above - below).y() / height, ew = (above - below).x() / height;
 		peak[2 * level - 2] = math::max(peak[2 * level - 2], math::abs(ns));
 		peak[2 * level - 1] = math::max(peak[2 * level - 1], math::abs(ew));
-		if (!(tiltTime >= 0) && math::max(math::abs(ns), math::abs(ew)) > tiltDrift) {
+		const bool stood = !(tiltTime >= 0) && !(collapseTime >= 0);
+		if (stood && math::max(math::abs(ns), math::abs(ew)) > tiltDrift) {
 			tiltTime = scene->time;
 			tiltDirection = math::abs(ns) > math::abs(ew) ? "ns" : "ew";
 		}

@@ -138,13 +138,12 @@ void prepareModes(ModalConstraint& c, const SolverBody& a, const SolverBody& b, 
 	c.thresholdShare = 1 / (square * square);
 	c.decay = x;
 	c.share = (x + g) / (1 + x + g);
-	c.shareBefore = (x - g) / (1 + x + g);
-	c.kept.setZero();
+	c.bias = -x / (1 + x + g) * c.before.array();
 	if (modes.isStiff(h)) {
 		Vec6 momentum;
 		momentum << history.linear, history.angular;
 		const Vec6 m = modes.modes.partialPivLu().solve(momentum);
-		c.kept = (phase > stiffPhase).select((m.array() - g * c.before.array()) / (1 + x + g), 0.);
+		c.bias.array() += (phase > stiffPhase).select(m.array() / (1 + x + g), 0.);
 	}
 	c.newmark = g;
 	c.impulse.setZero();
@@ -155,7 +154,7 @@ void prepareModes(ModalConstraint& c, const SolverBody& a, const SolverBody& b, 
 void solveModes(ModalConstraint& c, const BodyMotion& a, const BodyMotion& b, double threshold)
 {
 	const Vec6 now = modalNow(c, a, b), sum = c.before + now - c.impulse; // eta + eta' without q
-	Vec6 q = c.share.cwiseProduct(c.impulse - now) - c.shareBefore.cwiseProduct(c.before) + c.kept; // (3)
+	Vec6 q = c.share.cwiseProduct(c.impulse - now) + c.bias; // (3)
 	const double square = q.squaredNorm(), linear = q.dot(sum); // work: (linear + square) / 2
 	const double account = std::max(0., c.history.stored);
 	if (linear + square > 2 * account) q *= largestShare(linear, square, account); // (4)

@@ -25,8 +25,7 @@
 /// g eta'^2 / 2, at most the work that the bodies have done on the joint and that is neither returned nor dissipated
 /// (the account N). The rest of that work is dissipated.
 /// With the current twist u, in which q0 acts already, eta' = Z^T u + q - q0, and a visit of the joint is
-///     q = s (q0 - Z^T u) - r Z^T w + (m - g Z^T w) / (1 + x + g),
-///     s = (x + g) / (1 + x + g),   r = (x - g) / (1 + x + g)                                    (3)
+///     q = s (q0 - Z^T u) + (m - x Z^T w) / (1 + x + g),   s = (x + g) / (1 + x + g)             (3)
 /// Newmark's term may put back what it has stored and no more, whatever the modes: q is shortened to
 ///     q^T (eta + eta') / 2 <= N                                                                 (4)
 /// The first visit of a step starts from q0 = 0, after the warm start of the contacts. Its error is small like s, so
@@ -47,7 +46,6 @@
 ///     P        impulse       on B at the joint's centre [N s, N m s]
 ///     q, q0    modal impulse after and before a visit [kg^1/2 m/s]
 ///     R        response      of w to P [1/kg, 1/(kg m), 1/(kg m2)]
-///     r        shareBefore   weight of the modal velocity before the step [-]
 ///     s        share         of the modal impulse of a joint that is infinitely damped [-]
 ///     w, u     twist         velocity and spin of B relative to A at the joint's centre: before the step, current
 ///                            [m/s, rad/s]
@@ -120,8 +118,8 @@ struct ModalConstraint {
 	Mat3 axesA; ///< rotation matrix from the frame of A to the world
 	Vec3 armA, armB; ///< from the centres of mass to the joint's centre [m]
 	Vec6 before; ///< eta
-	Vec6 decay, share, shareBefore; ///< x, s, r
-	Vec6 kept; ///< (m - g eta) / (1 + x + g)
+	Vec6 decay, share; ///< x, s
+	Vec6 bias; ///< (m - x eta) / (1 + x + g)
 	Vec6 impulse; ///< q: in-out of the sweeps
 	double squaredChange; ///< of q in the last visit: twice the kinetic energy of the change [J]
 	Vec6 newmark; ///< g

@@ -65,7 +65,7 @@ def main():
     with errors_in_a_line(options.out or "the picture"):
         request = motion_request(options)
         with noted():
-            motion = scaled(request.motion(options.dt), 1.0 if request.scale is None else request.scale)
+            motion = scaled(request.motion(options.dt), request.factor)
         print_measures(motion, corner)
         written = motion_sheet.write(options.out or file_name(motion.name), motion, corner)
     print("written: " + ", ".join(map(str, written)))

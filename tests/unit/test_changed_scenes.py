@@ -45,7 +45,7 @@ def test_a_changed_normal_of_a_stiff_joint(normal):
     yt.set_velocity(O.bodies[other], (0, 0.01, 0.1))
     before = yt.energy()["kinetic"]
     O.run(1000, True)
-    assert yt.energy()["kinetic"] < before and abs(yt.energy_residual()) < 1e-3 * before
+    assert yt.energy()["kinetic"] < before and abs(yt.energy_residual()) < 1e-4 * before  # 3e-5: the modes turn
 
 
 @pytest.mark.parametrize("late", [False, True])
@@ -67,7 +67,7 @@ def test_an_imposed_velocity_does_not_overload_a_stiff_joint(late, stiffness):
     for _ in range(100):
         O.step()
         largest = max(largest, sum(spring["force"].norm() for spring in joint.springs))
-    assert 0.05 * exact < largest < 1.15 * exact
+    assert 0.95 * exact < largest < 1.1 * exact  # 1.07 and 1.08: half a step before the first force
 
 
 def test_a_joint_too_stiff_for_the_step_in_mid_run():
@@ -113,7 +113,24 @@ def test_a_fixed_body_that_moves_does_work():
     O.run(3000, True)
     terms = yt.energy()
     assert terms["imposed_velocity"] > 0.9 * (terms["friction"] + terms["kinetic"]) > 0.1
-    assert abs(yt.energy_residual()) < 1e-3 * terms["imposed_velocity"]
+    assert abs(yt.energy_residual()) < 1e-9 * terms["imposed_velocity"]  # rounding
+
+
+@pytest.mark.parametrize("ratio", [0, 0.05])
+@pytest.mark.parametrize("dt, options", [(1e-4, {}), (1e-5, {"sweeps": 0})])
+def test_work_through_joints(dt, options, ratio):
+    """A column that is joined to a plate, which is shaken by a prescribed velocity."""
+    ground = plate()
+    column = O.bodies.append(yt.box((0.12, 0.12, 1), (0, 0, 0.5)))
+    O.dt, O.engines = dt, yt.engines(**options)
+    points = [(x, y, 0) for x in (-0.06, 0.06) for y in (-0.06, 0.06)]
+    yt.connect(ground, column, points, strength=math.inf, damping_ratio=ratio)
+    for _ in range(2000):
+        O.bodies[ground].state.vel = (0.3 * math.sin(12 * O.time), 0, 0)
+        O.step()
+    work = yt.energy()["imposed_velocity"]
+    assert work > 5e-3 and (yt.energy()["joint_dashpot"] > 0) == (ratio > 0)
+    assert abs(yt.energy_residual()) < 1e-4 * work  # 4e-5: velocities change between the steps
 
 
 def test_energies_of_engines_that_are_switched_off():
@@ -125,7 +142,7 @@ def test_energies_of_engines_that_are_switched_off():
     shaking.dead = True
     O.run(10, True)
     assert work > 0.1 and yt.energy()["ground_motion"] == pytest.approx(work, rel=1e-9)
-    assert abs(yt.energy_residual()) < 1e-6 * work
+    assert abs(yt.energy_residual()) < 1e-9 * work  # rounding
     O.engines = O.engines + [yw.GroundMotionEngine(step=0.01, acceleration=[(0, 0, 0)] * 3)]
     assert yt.energy()["ground_motion"] == 0, "that of the engine that acts"
 
@@ -150,7 +167,7 @@ def test_time_set_back(gravity, material):
     before = yt.energy_residual()
     O.resetTime()
     O.run(3, True)
-    assert yt.energy_residual() == pytest.approx(before, abs=1e-9)
+    assert yt.energy_residual() == pytest.approx(before, abs=1e-9)  # of 2e-5 J in the contact, counted twice
 
 
 # --- engines ----------------------------------------------------------------------------------------------------------

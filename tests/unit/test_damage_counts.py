@@ -12,7 +12,7 @@ from yade_timber.recording.events import Collapse, ColumnsLost, Tilt
 from yade_timber.recording.summary import Columns
 from yade_timber.run import observer
 from yade_timber.run.progress import Bar, Status
-from yade_timber.run.summary import record
+from yade_timber.run.plan import record
 from yade_timber.scene import engines, scenario
 
 
@@ -70,7 +70,7 @@ def test_motion_as_applied():
     motion = GroundMotion(0.01, np.outer(np.sin(np.arange(100)), [1.0, 2.0, 3.0]))  # ew, ns, ud
     shaken = scenario.Scenario("scaled", "A", motion, scale=0.5, dt=5e-4)
     scenario.build(shaken)
-    assert record(motion, shaken.dt, shaken.scale).pga_gal == pytest.approx({"ew": 50, "ns": 100, "ud": 150}, rel=1e-3)
+    assert record(motion, shaken.scale, shaken.dt).pga_gal == pytest.approx({"ew": 50, "ns": 100, "ud": 150}, rel=1e-3)
     assert np.allclose(observer.describe_motion().acceleration, 0.5 * motion.acceleration)
 
 

@@ -9,46 +9,18 @@ import pytest
 from yade_timber.house import HouseError, build_house, diagnose, load_house, weigh
 from yade_timber.house.weight import sentence
 
-HOUSE = """extends: base
-name: t
-structures:
-  main:
-    place: {origin: [0, 0]}
-    grid: {x: {module: 0.91, count: 8}, y: {module: 0.91, count: 6}}
-    margin: 0.06
-    lines:
-      - {along: y, at: [0, 4, 8], from: 0, to: 6}
-      - {along: x, at: [0, 6], from: 0, to: 8, cut: true}
-    stack: &stack
-      - {layer: foundation, height: 0.4, width: 0.15}
-      - {layer: sill, height: 0.12, width: 0.12}
-      - {layer: columns, height: 2.7}
-      - {layer: beams, height: 0.24, width: 0.12}
-      - {layer: floor, thickness: 0.1}
-      - {layer: columns, height: 2.6}
-      - {layer: beams, height: 0.24, width: 0.12}
-      - {layer: roof, type: gable, pitch: 0.4, thickness: 0.12, material: roofing}
-    columns:
-      - {section: 0.12, grid: {x: [0, 4, 8], y: [0, 1, 2, 3, 4, 5, 6]}}
-      - {section: 0.12, grid: {x: [1, 2, 3, 5, 6, 7], y: [0, 6]}}
-    braces: {lines: [{along: y, at: [0, 8], runs: [[0, 1], [6, 5]]}, {along: x, at: [0, 6], runs: [[0, 1], [8, 7]]}]}
-"""
-ONE_STOREY = """
-      - {layer: sill, height: 0.12, width: 0.12}
-      - {layer: columns, height: 2.7}
-      - {layer: beams, height: 0.24, width: 0.12}
-"""
+SILL, COLUMNS, BEAMS = ("{layer: sill, height: 0.12, width: 0.12}", "{layer: columns, height: 2.7}",
+                        "{layer: beams, height: 0.24, width: 0.12}")
+FLOOR, FLAT = "{layer: floor, thickness: 0.1}", "{layer: roof, type: flat, thickness: 0.12, material: roofing}"
 
 
 @pytest.fixture
 def house(tmp_path):
-    """Builds the house with changes: a YAML text after `extends`."""
-    (tmp_path / "base2.yaml").write_text(HOUSE.replace("&stack", ""))
+    """Builds house B with changes, a YAML text."""
 
     def built(changes=""):
-        path = tmp_path / "own.yaml"
-        path.write_text(f"extends: base2.yaml\nname: own\n{changes}")
-        return build_house(load_house(path))
+        (tmp_path / "own.yaml").write_text(f"extends: B\nname: own\n{changes}")
+        return build_house(load_house(tmp_path / "own.yaml"))
 
     return built
 
@@ -62,19 +34,18 @@ def pairs(model):
 
 
 def test_a_ground_floor_is_joined_to_its_sill(house):
-    model = house(stack("{layer: sill, height: 0.12, width: 0.12}", "{layer: floor, thickness: 0.1}", "{layer: columns, height: 2.7}",
-                        "{layer: beams, height: 0.24, width: 0.12}", "{layer: roof, type: flat, thickness: 0.12, material: roofing}"))
+    model = house(stack(SILL, FLOOR, COLUMNS, BEAMS, FLAT))
     assert ("floor", "sill") in pairs(model)
 
 
 @pytest.mark.parametrize("end", [3, 5, 8])
 def test_posts_of_a_roof_over_a_part_of_the_grid(house, end):
     """They stand below the slab, along its whole high side."""
-    area = "" if end == 8 else f", area: {{x: [0, {end}], y: [0, 6]}}"
+    area = "" if end == 8 else f", area: {{x: [0, {end}], y: [0, 9]}}"
     roof = f"{{layer: roof, type: mono, pitch: 0.2, falls: south, thickness: 0.12, material: roofing{area}}}"
-    model = house(stack(*(line.strip(" -") for line in ONE_STOREY.strip().splitlines()), roof))
+    model = house(stack(SILL, COLUMNS, BEAMS, roof))
     slab = np.concatenate([e.vertices for e in model.of_kind("roof")])
-    posts = np.concatenate([joint.points for joint in model.joints if "roof" in (model.element(joint.a).kind, model.element(joint.b).kind) and np.mean(joint.points, axis=0)[1] > 5])
+    posts = np.concatenate([joint.points for joint in model.joints if "roof" in (model.element(joint.a).kind, model.element(joint.b).kind) and np.mean(joint.points, axis=0)[1] > 7])
     assert posts[:, 0].max() <= slab[:, 0].max() + 1e-9 and posts[:, 0].max() > min(slab[:, 0].max(), 0.91 * end) - 0.2
     assert posts[:, 0].min() < 0.2
 
@@ -82,7 +53,7 @@ def test_posts_of_a_roof_over_a_part_of_the_grid(house, end):
 def test_torn_braces_do_not_count(house):
     whole, torn = (diagnose(house(damage)) for damage in ("", "damage: {regions: [{side: south, storey: 1, brace_beam: {count: 2}}]}\n"))
     key = lambda found: found["structures"]["main"]["storeys"]["1"]["directions"]["ew"]["wall_quantity_ratio"]
-    assert key(torn) == pytest.approx(key(whole) / 2, rel=1e-6)
+    assert key(torn) == pytest.approx(key(whole) / 2, abs=6e-4)  # three digits
 
 
 def test_a_leaning_house_has_the_same_uplift(house):
@@ -102,9 +73,7 @@ def test_damage_of_two_regions_adds_up(house):
 
 def test_an_unrated_main_structure_has_no_index(house):
     """Four storeys: the annex does not speak for it."""
-    layers = ["{layer: sill, height: 0.12, width: 0.12}"] + ["{layer: columns, height: 2.5}", "{layer: beams, height: 0.24, width: 0.12}", "{layer: floor, thickness: 0.1}"] * 3
-    layers += ["{layer: columns, height: 2.5}", "{layer: beams, height: 0.24, width: 0.12}", "{layer: roof, type: flat, thickness: 0.12, material: roofing}"]
-    found = diagnose(house(stack(*layers)))
+    found = diagnose(house(stack(SILL, *3 * [COLUMNS, BEAMS, FLOOR], COLUMNS, BEAMS, FLAT)))
     assert found["iw"] is None and found["sentence"].startswith("no seismic index")
 
 
@@ -119,7 +88,7 @@ def test_weight_of_all_structures():
     [
         ("damage: {regions: [{side: south, storey: 1}]}", "give column_beam or brace_beam"),
         ("wall_types: {window: {multiplier: 2}}", "wall_types.window: the name of an opening"),
-        ("structures: {main: {walls: [{along: x, at: 0, from: 2, to: 4, type: []}]}}", "walls[1].type: an empty list"),
+        ("structures: {main: {walls: [{along: x, at: 0, from: 2, to: 4, type: []}]}}", "walls[1].type: a list of 0 items"),
         ("structures: {main: {place: {gap: 3}}}", "place.gap: belongs to 'beside'"),
         ("structures: {main: {place: {align: north}}}", "place.align: belongs to 'beside'"),
     ],

@@ -46,7 +46,7 @@ def ground_motion(source=SHIPPED, dt=DEFAULT_DT, **processing):
     keywords = read_keywords(MotionRequest, "motion", processing, {"record": "give it as the first argument"})
     request = MotionRequest(**{**keywords, "record": record})
     request.check("motion: {}".format)
-    return scaled(request.motion(dt, measured), 1.0 if request.scale is None else request.scale)
+    return scaled(request.motion(dt, measured), request.factor)
 
 
 def source_of(motion):

@@ -69,19 +69,9 @@ def _check_references(data):
     """Every referenced material, joint type, wall type and structure must exist."""
     if not data["structures"]:
         fail(data.at("structures"), "structures", "a house needs at least one structure")
-    _check_lists(data["structures"])
     for name, known, noun, where, path in _references(data):
         if name not in known:
             fail(where, path, f"unknown {noun} '{name}', {nearest(name, known)}")
-
-
-def _check_lists(structures):
-    """Lists that must not be empty: types of a wall, areas of a floor."""
-    for name, structure in structures.items():
-        for part, key in (("walls", "type"), ("stack", "areas")):
-            for i, table in enumerate(structure[part], 1):
-                if table.get(key) == []:
-                    fail(table.at(key), f"structures.{name}.{part}[{i}].{key}", "an empty list; remove the entry")
 
 
 def _references(data):

@@ -69,20 +69,20 @@ roof = Variants("type", {"hip": _roof("hip", _RISE, corner_cut=length(high=5.0, 
 layer = Variants("layer", {
     "foundation": _strip("foundation", True), "sill": _strip("sill", True),
     "columns": _layer("columns", height=length(0.1, 20.0)), "beams": _strip("beams", False),
-    "floor": _layer("floor", thickness=length(0.01, 2.0), areas=ListOf(area, most=MAX_AREAS, default=None)),
+    "floor": _layer("floor", thickness=length(0.01, 2.0), areas=ListOf(area, least=1, most=MAX_AREAS, default=None)),
     "roof": roof
 })
 OPENINGS = ("window", "door")
 wall_line = Record({"along": Choice(("x", "y")), "at": nodes, "from": node, "to": node,
-                    "type": ListOf(word(), scalar=True, most=5), "opening": Choice(("none", *OPENINGS), "none"),
-                    "storeys": storeys})
+                    "type": ListOf(word(), scalar=True, least=1, most=5),
+                    "opening": Choice(("none", *OPENINGS), "none"), "storeys": storeys})
 _slab_load = Number("kN/m2", 0.05, 20.0, default=None)
 loads = Record({"roof": _slab_load, "floor": _slab_load, "wall": Number("kN/m2", 0.0, 20.0, default=None)}, default={})
-place = Record({"origin": ListOf(Number("m", -1000, 1000), 2, default=None), "beside": word(None),
+PLACE = Record({"origin": ListOf(Number("m", -1000, 1000), 2, default=None), "beside": word(None),
                 "side": Choice(SIDES, "east"), "align": Choice(("middle", *SIDES), "middle"),
                 "gap": length(high=100.0, default=0.0, open_low=False),
                 "shift": Number("m", -100, 100, default=0.0)}, one_of=("origin", "beside"))
-structure = Record({"place": place, "grid": Record({"x": axis, "y": axis}), "margin": length(high=2.0, open_low=False),
+structure = Record({"place": PLACE, "grid": Record({"x": axis, "y": axis}), "margin": length(high=2.0, open_low=False),
                     "lines": ListOf(line, most=MAX_LINES), "stack": ListOf(layer, most=MAX_LAYERS),
                     "columns": ListOf(column_group), "braces": braces, "walls": ListOf(wall_line, default=()),
                     "loads": loads})

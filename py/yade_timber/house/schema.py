@@ -126,11 +126,13 @@ class Pair:
 
 @dataclass(frozen=True)
 class ListOf:
-    """A list of `item`; `scalar` allows one item without brackets; `length` fixes their number, `most` limits it."""
+    """A list of `item`; `scalar` allows one item without brackets; `length` fixes their number, `least` and
+    `most` limit it."""
 
     item: object
     length: int = 0
     scalar: bool = False
+    least: int = 0
     most: int = MAX_ITEMS
     default: object = REQUIRED
 
@@ -142,6 +144,8 @@ class ListOf:
         if self.length and len(value) != self.length:
             remedy = "; write decimal points, not commas" if len(value) > self.length else ""
             fail(where, name, f"expected {self.length} items, got {len(value)}{remedy}")
+        if len(value) < self.least:
+            fail(where, name, f"a list of {len(value)} items; at least {self.least}, or remove the entry")
         if len(value) > self.most:
             fail(where, name, f"a list of {len(value)} items; at most {self.most}")
         checked = [self.item.check(v, value.at(i), f"{name}[{i + 1}]") for i, v in enumerate(value)]

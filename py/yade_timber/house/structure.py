@@ -6,7 +6,7 @@ import numpy as np
 
 from .errors import HouseError
 from .geometry import halfspace_vertices
-from .layout import MAX_STOREYS, MIN_SPACING
+from .layout import MAX_STOREYS, MIN_SPACING, PLACE
 from .limits import MAX_ELEMENTS
 from .model import Element
 
@@ -133,8 +133,8 @@ def _origin(table, local, others, name):
     """World position (2,) [m] of the structure's grid origin."""
     place = table["place"]
     if place["origin"] is not None:
-        for key, nothing in (("side", "east"), ("align", "middle"), ("gap", 0.0), ("shift", 0.0)):
-            if place[key] != nothing:
+        for key in ("side", "align", "gap", "shift"):
+            if place[key] != PLACE.fields[key].default:
                 raise HouseError(f"{place.at(key)}: structures.{name}.place.{key}: belongs to 'beside'; change the"
                                  " origin instead")
         return np.array(place["origin"])

@@ -34,9 +34,7 @@ def in_axes(motion, axes):
     """The motion in other axes. axes: (3, 3), their directions as columns"""
     if np.array_equal(axes, np.eye(3)):
         return motion
-    acceleration = motion.acceleration @ axes
-    return replace(motion, acceleration=acceleration,
-                   parts=_changed_parts(motion.parts, acceleration, motion.dt, 1.0, 0.0))
+    return replace(_changed(motion, motion.acceleration @ axes, ""), source=motion.source)
 
 
 def round_off(x):

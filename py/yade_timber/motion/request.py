@@ -47,6 +47,11 @@ class MotionRequest:
     error = RecordError
     """Raised by `check`."""
 
+    @property
+    def factor(self):
+        """`scale`, or its default. [-]"""
+        return 1.0 if self.scale is None else self.scale
+
     def given(self):
         """Names of the requested options of the ground motion."""
         return [name for name in options(MotionRequest) if is_given(self, name)]
@@ -98,7 +103,7 @@ class MotionRequest:
         return read_unchecked(record, self.component, self.units, self.azimuth or 0.0, self.shortest)
 
     def _require_possible(self, motion):
-        require_possible(np.abs(motion.acceleration).max() * (1.0 if self.scale is None else self.scale), motion.name)
+        require_possible(np.abs(motion.acceleration).max() * self.factor, motion.name)
 
 
 def add_motion_options(parser):

@@ -9,7 +9,8 @@ from ..recording.summary import Mode, ModesAt
 from ..scene.modes import natural_modes
 
 ROUNDING = 1e-6
-"""Displacement of the levels over the largest one of a mode in which they do not move. [-]"""
+"""Displacement of the levels over the largest one of a mode in which they do not move [-]: rounding gives 1e-15,
+modes of a house 0.6 and more."""
 O = yw.Omega()
 
 

@@ -4,33 +4,33 @@ from dataclasses import dataclass, replace
 
 from ..base.notes import noted
 from ..house import Town, load_house, load_town
-from ..motion import interpolation_error
+from ..motion import constant_note, interpolation_error, onset
 from ..motion.processing import in_axes
+from ..recording.summary import PartOfRecord, Record
 from ..scene.scenario import Scenario
 from .options import QUIET_DURATION
 
 
 @dataclass(frozen=True)
 class TownPlan:
-    """A Town, (Scenario, RunOptions) of each lot, and the GroundMotion that reaches the town, or None."""
+    """A Town, (Scenario, RunOptions) of each lot, and Record of the motion that reaches the town, or None."""
 
     town: Town
     lots: list
-    motion: object
+    record: object
 
 
 def planned(options):
     """Scenario, or TownPlan of a town. Raises HouseError, RecordError."""
     with noted():
         motion = options.motion(options.dt, options.ground_motion) if options.shaken else None
-        if motion:
-            interpolation_error(motion, options.dt)  # refuses a motion that is too long for it before the run
     if options.town is None:
         return _scenario(options, motion)
     town = load_town(options.town)
     delays = town.delays()
     last = max(delays) if motion else 0.0
-    return TownPlan(town, [_lot(options, lot, motion, delay, last) for lot, delay in zip(town.lots, delays)], motion)
+    lots = [_lot(options, lot, motion, delay, last) for lot, delay in zip(town.lots, delays)]
+    return TownPlan(town, lots, motion and record(motion, options.factor, options.dt))
 
 
 def _scenario(options, motion, delay=0.0, last=0.0):
@@ -38,11 +38,28 @@ def _scenario(options, motion, delay=0.0, last=0.0):
     duration = (options.duration if options.duration is not None else motion.duration + last if motion
                 else QUIET_DURATION)
     snow = options.snow if options.snow is not None else load_house(options.house).data["snow"]["depth"]
-    return Scenario(options.title, options.house, motion, snow_depth=snow,
-                    scale=1.0 if options.scale is None else options.scale, delay=delay if motion else 0.0,
-                    dt=options.dt, duration=duration, until_collapse=options.until_collapse,
-                    joint_damping=options.joint_damping, wall_level=options.walls, disturb=options.disturb,
-                    options={"skip_rest": 0} if options.every_step else {})
+    return Scenario(options.title, options.house, motion, snow_depth=snow, scale=options.factor,
+                    delay=delay if motion else 0.0, dt=options.dt, duration=duration,
+                    until_collapse=options.until_collapse, joint_damping=options.joint_damping,
+                    wall_level=options.walls, disturb=options.disturb,
+                    options={"skip_rest": 0} if options.every_step else {},
+                    record=motion and record(motion, options.factor, options.dt, delay))
+
+
+def record(motion, scale, dt, delay=0.0):
+    """Record of the summary: the motion times a factor in a run of time step dt, from `delay` on [s]. Raises
+    RecordError."""
+    parts = [PartOfRecord(source=part.source, start_s=round(part.start, 6), duration_s=round(part.duration, 6),
+                          scale=scale * part.scale, pga_gal=_scaled(part.pga_gal, scale)) for part in motion.parts]
+    begin = onset(motion)
+    begin = None if begin is None else begin + delay  # None: no shaking
+    return Record(source=motion.source or motion.name, pga_gal=_scaled(motion.pga_gal, scale), scale=scale,
+                  dt=motion.dt, interpolation_error=round(interpolation_error(motion, dt), 6), onset_s=begin,
+                  note=constant_note(motion, scale) or None, sequence=parts or None)
+
+
+def _scaled(accelerations, scale):
+    return {axis: round(scale * value, 6) for axis, value in accelerations.items()}
 
 
 def _lot(options, lot, motion, delay, last):

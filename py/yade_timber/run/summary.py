@@ -12,13 +12,12 @@ from ..base.errors import RunError
 from ..base.json_types import decode, encode
 from ..base.table import csv_text
 from ..house import comparison, diagnose, weigh
-from ..motion import constant_note, interpolation_error, onset
 from ..plugin import compiled
 from ..recording import drift
 from ..recording.history import NAME as HISTORY
 from ..recording.history import History
 from ..recording.peaks import BREAKS
-from ..recording.summary import NAME, Diagnosis, Energy, PartOfRecord, Record, Solver, Summary, Versions, Walls, Weight
+from ..recording.summary import NAME, Diagnosis, Energy, Solver, Summary, Versions, Walls, Weight
 from ..scene import queries
 from ..scene.engines import find_engine
 from ..text.english import sentence
@@ -51,8 +50,7 @@ def summary(scenario, observed, tables, wall_s, made_from, cut_off=None):
         snow_depth_m=scenario.snow_depth, snow_mass_kg=model.counts()["mass_snow"], weight=decode(Weight, weigh(model)),
         diagnosis=decode(Diagnosis, {**diagnose(model), "disagreement": ""}), joint_damping=scenario.joint_damping,
         walls=Walls(level=model.law["wall_level"], other=scenario.other_walls) if model.law["wall_level"] else None,
-        record=scenario.motion and record(scenario.motion, scenario.dt, scenario.scale, scenario.delay),
-        dt=scenario.dt, duration_s=simulated, until_collapse=scenario.until_collapse,
+        record=scenario.record, dt=scenario.dt, duration_s=simulated, until_collapse=scenario.until_collapse,
         cut_off=cut_off or created_too_much(energy), steps=O.iter, wall_s=round(wall_s, 3),
         skipped_s=round(skipper.skipped if skipper else 0.0, 3),
         real_time_factor=round(simulated / wall_s, 6) if wall_s > 0 else None, threads=compiled.thread_count(),
@@ -77,22 +75,6 @@ def judged(draft):
     main = replace(draft.main, peak_drift=peak, residual_drift=residual, collapsed=draft.collapsed)
     draft = replace(draft, structures={**draft.structures, next(iter(draft.structures)): main}, verdict=main.verdict)
     return replace(draft, diagnosis=replace(draft.diagnosis, disagreement=comparison(draft)), sentence=sentence(draft))
-
-
-def record(motion, dt, scale, delay=0.0):
-    """The part `record`. dt: of the run; delay: time at which the motion begins [s]; interpolation_error: of straight
-    lines between samples, as a share of the PGA."""
-    parts = [PartOfRecord(source=part.source, start_s=round(part.start, 6), duration_s=round(part.duration, 6),
-                          scale=scale * part.scale, pga_gal=_scaled(part.pga_gal, scale)) for part in motion.parts]
-    begin = onset(motion)
-    begin = None if begin is None else begin + delay  # None: no shaking
-    return Record(source=motion.source or motion.name, pga_gal=_scaled(motion.pga_gal, scale), scale=scale,
-                  dt=motion.dt, interpolation_error=round(interpolation_error(motion, dt), 6), onset_s=begin,
-                  note=constant_note(motion, scale) or None, sequence=parts or None)
-
-
-def _scaled(accelerations, scale):
-    return {axis: round(scale * value, 6) for axis, value in accelerations.items()}
 
 
 def recorded_history(monitor):

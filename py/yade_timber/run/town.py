@@ -21,7 +21,6 @@ from ..recording import frames
 from ..recording import town as recording
 from ..text.english import sentence
 from .progress import Bar
-from . import summary
 from .runner import HOUSES, RECORDED, STATE, Interrupted, PhysicsError, Run, Stoppable, clear, removing, unwritten
 
 O = yw.Omega()
@@ -34,7 +33,7 @@ class TownRun(Stoppable):
         if yade.runtime.opts.threads is None and yade.runtime.opts.cores is None:
             compiled.set_thread_count(processors())
         self.town, self.options = plan.town, options
-        self.record = town_record(plan, options)
+        self.record = plan.record
         self.runs, self.scenes = [], []
         for lot, (scenario, lot_options) in zip(self.town.lots, plan.lots):
             prepare_folder(lot_options.folder, options.named("out"))
@@ -155,11 +154,6 @@ COLUMNS = ("lot", "house", "x [m]", "y [m]", "rotation [degrees]", "snow [m]", "
            "peak drift [-]", "residual drift [-]", "tilt [s]", "collapse [s]", "broken joints", "joints",
            "broken wall sheets", "wall sheets", "computing time [s]", "sentence")
 """Of houses.csv."""
-
-
-def town_record(plan, options):
-    """Record of the motion that reaches the town, in its axes; None without an earthquake."""
-    return plan.motion and summary.record(plan.motion, options.dt, 1.0 if options.scale is None else options.scale)
 
 
 @contextmanager

@@ -26,7 +26,7 @@ class Scenario:
     scale: factor on the motion [-]; delay: time at which it begins [s]; dt, duration [s]; until_collapse: whether a
     collapse ends the run; joint_damping: damping ratio of all joints [-], wall_level: of walls of a rated multiplier,
     None for both: the house's own; disturb: seed of the house's disturbance, None: none; options: of `engines.engines`;
-    other_walls: OtherWalls of the summary, verdict with walls of the other level.
+    record, other_walls: of the summary, on the motion and on walls of the other level.
     """
 
     name: str
@@ -42,6 +42,7 @@ class Scenario:
     wall_level: str = None
     disturb: int = None
     options: dict = field(default_factory=dict)
+    record: object = None
     other_walls: object = None
 
     def build_model(self):

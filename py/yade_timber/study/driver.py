@@ -11,8 +11,8 @@ import shutil
 import signal
 import subprocess
 import time
-from contextlib import ExitStack
 from collections import deque
+from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -160,7 +160,7 @@ class _Process:
         ended_by = _signal(self.child.returncode)
         if ended_by in STOPS:
             return f"stopped by {ended_by}; the next start continues this run"
-        error = self._error()
+        error = f"crashed ({ended_by}); see {self.task.folder / LOG}" if ended_by else self._error()
         write_text(self.task.folder / END, json.dumps({"status": "failed" if error else "done", "error": error}) + "\n")
         if error:
             return f"failed: {error}"
@@ -169,8 +169,6 @@ class _Process:
 
     def _error(self):
         """Error message of the run, or None."""
-        if ended_by := _signal(self.child.returncode):
-            return f"crashed ({ended_by}); see {self.task.folder / LOG}"
         if self.child.returncode:
             return last_error((self.task.folder / LOG).read_text(errors="replace"), self.child.returncode)
         if self.task.summary is None:

@@ -95,7 +95,7 @@ def outcome(summary):
     """Verdict on the main structure, with its peak storey drift."""
     if summary.collapsed:
         tilt, end = summary.tilt_time_s, f"collapsed at {summary.collapse_time_s:.1f} s"
-        return (end if tilt is None or tilt > summary.collapse_time_s
+        return (end if tilt is None
                 else f"{end}, after a storey drift of 1/10 {direction_name(summary.tilt_direction)} at {tilt:.1f} s")
     drift, storey, direction = summary.largest_drift()
     peak = f"{directed(drift, direction)} in {storey_name(storey)}" if drift >= SMALL else ratio(drift)

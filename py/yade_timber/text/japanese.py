@@ -28,25 +28,26 @@ def result(summary):
 
 
 def cut_off(summary):
-    return f"{summary.duration_s:.2f} 秒で計算を打ち切り、以下の結果は信頼できない" if summary.cut_off else ""
+    return f"{summary.duration_s:.2f} 秒で計算を打ち切り、以下の結果は信頼できない" if english.cut_off(summary) else ""
 
 
 def other_walls(summary):
-    other = summary.walls and summary.walls.other
-    return (f"耐力壁の水準 {other.level} では{OUTCOMES[other.verdict]}"
-            if other and other.verdict != summary.main.verdict else "")
+    if not english.other_walls(summary):
+        return ""
+    other = summary.walls.other
+    return f"耐力壁の水準 {other.level} では{OUTCOMES[other.verdict]}"
 
 
 def weight(summary):
     """Damage before the shaking; without an earthquake the cause."""
+    if not english.weight(summary):
+        return ""
     cause = "自重と積雪" if summary.snow else "自重"
-    if summary.earthquake:
-        return f"揺れの前に{cause}で損傷" if any(event.kind == "own_weight" for event in summary.events) else ""
-    return f"{cause}による損傷" if summary.main.verdict != UNDAMAGED else ""
+    return f"揺れの前に{cause}で損傷" if summary.earthquake else f"{cause}による損傷"
 
 
 def record(summary):
-    return "記録の加速度に一定の成分がある" if summary.record and summary.record.note else ""
+    return "記録の加速度に一定の成分がある" if english.record(summary) else ""
 
 
 def unconverged(summary):
