@@ -52,8 +52,8 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(HealthCheck, GlobalEngine,
 		"Stops a run with an error before a step that cannot be computed. Must come before the collider. "
 		"When bodies, their parts and masses, joints, engines, functors or the time step were changed it checks "
-		"that the list of engines is complete, in order, without a second integrator and of this scene, that all "
-		"pairs of shapes and materials have functors, that materials and masses are valid, and that the step "
+		"that the list of engines is complete, in order, without a second integrator and of this scene, that "
+		"all pairs of shapes and materials have functors, that materials and masses are valid, and that the step "
 		"is small enough for the joints. "
 		"A free body with an angular velocity but no angular momentum gets the momentum of that velocity. "
 		"Then and at an interval it checks that positions and velocities are finite, speeds and rotations "

@@ -5,7 +5,8 @@
 
 namespace yade {
 
-/// Whether a sample is due: at the multiples of the interval, to half a step. If so, `next` becomes the time of the following sample.
+/// Whether a sample is due: at the multiples of the interval, to half a step. If so, `next` becomes the time of the
+/// following sample.
 /// next: simulated time of the next sample [s]; interval: between samples, 0 for each step [s]
 inline bool isSampleDue(const Scene& scene, Real interval, Real& next)
 {

@@ -17,6 +17,6 @@ def assert_close(value, reference, rtol=0.0, atol=0.0):
     if bad.any():
         worst = np.unravel_index(np.argmax(np.where(np.isnan(excess), np.inf, excess)), value.shape)
         raise AssertionError(
-            f"{bad.sum()} of {value.size} differ; worst at {tuple(map(int, worst))}: {float(value[worst])!r} instead of {float(reference[worst])!r} "
-            f"(rtol {rtol:g}, atol {atol:g}). Value: {value.tolist()!r}"
-        )
+            f"{bad.sum()} of {value.size} differ; worst at {tuple(map(int, worst))}: {float(value[worst])!r} instead "
+            f"of {float(reference[worst])!r} "
+            f"(rtol {rtol:g}, atol {atol:g}). Value: {value.tolist()!r}")

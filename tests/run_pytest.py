@@ -9,6 +9,9 @@ import sys
 import pytest
 
 sys.stdout.flush()
-code = int(pytest.main([sys.argv[-1], "-q", "-ra", "-p", "no:cacheprovider", f"--rootdir={os.path.dirname(os.path.abspath(__file__))}"]))
+code = int(
+    pytest.main([
+        sys.argv[-1], "-q", "-ra", "-p", "no:cacheprovider", f"--rootdir={os.path.dirname(os.path.abspath(__file__))}"
+    ]))
 sys.stdout.flush()
 sys.exit(code)

@@ -247,7 +247,8 @@ void ContactSolver::applyRestitution(const SolverPair& pair)
 	velocity.store(weighted[pair.bodyA].change, weighted[pair.bodyB].change);
 }
 
-/// Whether points have returned more energy beyond their accounts (5) than a share of the kinetic energy and the accounts.
+/// Whether points have returned more energy beyond their accounts (5) than a share of the kinetic energy and the
+/// accounts.
 bool ContactSolver::returnsTooMuch() const
 {
 	double excess = 0, energy = twiceKinetic / 2;

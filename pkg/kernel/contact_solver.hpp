@@ -63,7 +63,8 @@
 /// 893-901). They end after a sweep, so that (3) to (6) hold.
 ///
 /// Mass-weighted velocities: W = R^-1 V for the velocities and spins V of a pair, R R^T: the inverse of its mass matrix
-/// (Cholesky). A row of J gives a component of the relative velocity at a point, u = J V. An impulse p changes u by (J R) (J R)^T p:
+/// (Cholesky). A row of J gives a component of the relative velocity at a point, u = J V. An impulse p changes u by
+/// (J R) (J R)^T p:
 ///     u = u_0 + J R dW,   dW += (J R)^T p                                                       (8)
 /// with the component u_0 before the sweeps and the change dW of W since then. Each point has three rows: normal and
 /// two tangents.

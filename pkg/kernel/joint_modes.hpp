@@ -21,9 +21,9 @@
 ///                                                                                           (2)
 /// with beta = 0 for modes that the step resolves, h omega <= stiffPhase. The mass has the momentum m = g eta of the
 /// step before, 0 for a new joint: velocities that are imposed between steps are those of the bodies alone. (With g eta
-/// of the present velocity, an imposed one stretches a stiff spring by h omega times its exact amplitude.) The mass of Newmark's term has the energy sum
-/// g eta'^2 / 2, at most the work that the bodies have done on the joint and that is neither returned nor dissipated
-/// (the account N). The rest of that work is dissipated.
+/// of the present velocity, an imposed one stretches a stiff spring by h omega times its exact amplitude.) The mass of
+/// Newmark's term has the energy sum g eta'^2 / 2, at most the work that the bodies have done on the joint and that is
+/// neither returned nor dissipated (the account N). The rest of that work is dissipated.
 /// With the current twist u, in which q0 acts already, eta' = Z^T u + q - q0, and a visit of the joint is
 ///     q = s (q0 - Z^T u) + (m - x Z^T w) / (1 + x + g),   s = (x + g) / (1 + x + g)             (3)
 /// Newmark's term may put back what it has stored and no more, whatever the modes: q is shortened to

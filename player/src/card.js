@@ -3,7 +3,7 @@
 import { Raycaster, Vector2, Vector3 } from "three";
 import { LOAD_COLORS } from "./joints.js";
 import { element } from "./dom.js";
-import { storeyName, translated, tr } from "./texts.js";
+import { either, storeyName, translated, tr } from "./texts.js";
 
 const CLOSE = 14; // distance to a joint at which a click means it [pixel]
 const STILL = 6; // movement between press and release that is still a click [pixel]
@@ -104,10 +104,12 @@ export class Card {
     const { elements, joint_list: joints, feet } = this.run.info;
     const known = own.map((j) => joints[j]).filter((joint) => joint.pull !== undefined);
     const force = (key) => `${(Math.max(...known.map((joint) => joint[key])) / 1000).toFixed(1)} kN`;
-    const lines = known.length ? [`${own.length > 1 ? tr("its joints: ") : ""}${tr("largest pull")} ${force("pull")}${tr(", ")}${tr("shear")} ${force("shear")}`] : [];
+    const end = this.run.info.until?.toFixed(2); // a collapse
+    const until = end ? either(` before ${end} s`, `（${end} 秒まで）`) : "";
+    const lines = known.length ? [`${own.length > 1 ? tr("its joints: ") : ""}${tr("largest pull")} ${force("pull")}${tr(", ")}${tr("shear")} ${force("shear")}${until}`] : [];
     const column = this.chosen.element ?? (feet.includes(own[0]) ? this.run.a[own[0]] : undefined);
     const uplift = elements[column]?.uplift;
-    if (uplift !== undefined) lines.push(`${tr("largest uplift of the column's foot")} ${(1000 * uplift).toFixed(uplift < 0.01 ? 1 : 0)} mm`);
+    if (uplift !== undefined) lines.push(`${tr("largest uplift of the column's foot")} ${(1000 * uplift).toFixed(uplift < 0.01 ? 1 : 0)} mm${until}`);
     return lines.join("\n");
   }
 

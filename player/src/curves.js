@@ -135,7 +135,7 @@ function paint(chart, run, first, span) {
   pen.scale(ratio, ratio);
   const x = (t) => LEFT + ((t - first) / (span - first)) * (width - LEFT);
   const low = height - (chart.axis ?? 0);
-  const y = (value) => low * (0.5 - 0.5 * chart.scale(value)) + 0.5;
+  const y = (value) => (low - 1) * (0.5 - 0.5 * chart.scale(value)) + 0.5; // a line at the border is inside
   axes(pen, chart, x, y, width, height, first, span);
   for (const { time } of run.info.events) if (time >= first) stroke(pen, [[x(time), 0], [x(time), low]], "#b8b2a4", 1, [1, 3]);
   for (const line of chart.lines) curve(pen, line, x, y, first, span);
@@ -146,7 +146,7 @@ function axes(pen, chart, x, y, width, height, first, span) {
   Object.assign(pen, { font: FONT, fillStyle: INK, textBaseline: "middle", textAlign: "right" });
   stroke(pen, [[LEFT, y(0)], [width, y(0)]], "#9b9789", 1);
   for (const value of chart.levels) stroke(pen, [[LEFT, y(value)], [width, y(value)]], "#77736a", 1, [4, 3]);
-  for (const { place, text } of apart(chart.marks.map(({ value, text }) => ({ place: y(value), text })))) pen.fillText(text, LEFT - 5, place);
+  for (const { place, text } of apart(chart.marks.map(({ value, text }) => ({ place: Math.min(y(value), height - LABEL_GAP / 2), text })))) pen.fillText(text, LEFT - 5, place);
   Object.assign(pen, { textAlign: "center", textBaseline: "bottom" });
   const gap = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 60].find((step) => (step / (span - first)) * (width - LEFT) > 44) ?? 120;
   for (let k = Math.ceil(first / gap); k * gap <= span; k++) {

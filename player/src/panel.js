@@ -90,10 +90,14 @@ function setText(place, text) {
   if (place.textContent !== text) place.textContent = text;
 }
 
-/** A drift as engineers write it: 1/85. */
+const LIMITS = [120, 30, 10]; // 1 / drift of verdict.LIMITS
+
+/** A drift as engineers write it: 1/85. One below a limit is not rounded up to it (text/english.py: ratio). */
 function ratio(drift) {
   if (drift < 1e-3) return "below 1/1000";
-  return drift > 0.5 ? "over 1/2" : `1/${Math.round(1 / drift)}`;
+  const number = Math.round(1 / drift);
+  const below = LIMITS.includes(number) && drift < 1 / number;
+  return drift > 0.5 ? "over 1/2" : `1/${number + below}`;
 }
 
 const [BROKEN_JOINT, BROKEN_WALL] = ["joint broken (pale: hidden)", "joint or wall broken (pale: hidden)"];

@@ -39,6 +39,7 @@ SPACING = 3.0
 WHOLE, POLYHEDRA, KERNEL = "this package in YADE", "YADE Polyhedra", "timber"
 HEADS = ("program", "pair", "time per pair and step [us]", "contact points", "expected", "error of normal [rad]",
          "error of depth [m]")
+PAGE_HEADS = ("pair", "program", "time [us]", "contact points", "error of normal [rad]", "error of depth [m]")
 NAMES = {"timber": "this package: points, law, solver", "timber points": "this package: points alone",
          "timber cold": "this package: points, nothing cached", "Bullet": "Bullet: points",
          "Bullet hulls": "Bullet: points, boxes as hulls", "Bullet cold": "Bullet: points, nothing cached",
@@ -166,11 +167,14 @@ def section(rows):
     ]
     return f"""## Contact pairs against peers
 
-CPU time per pair and step. Touching pairs overlap by 0.1 mm, near ones are 2 mm apart; normal and depth of all of them are known in closed form. Contact law and solver are included only where stated.
-For the face contact YADE's Polyhedra takes {time[POLYHEDRA, FACE] / whole:.0f} times as long as this package in YADE, and {time[POLYHEDRA, FACE] / own:.0f} times as long as its kernel. {machine()}.
+CPU time per pair and step. Touching pairs overlap by 0.1 mm, near ones are 2 mm apart; normal and depth of all of them
+are known in closed form. Contact law and solver are included only where stated.
+For the face contact YADE's Polyhedra takes {time[POLYHEDRA, FACE] / whole:.0f} times as long as this package in YADE,
+and {time[POLYHEDRA, FACE] / own:.0f} times as long as its kernel. {machine()}.
 
-{markdown_table(("pair", "program", "time [us]", "contact points", "error of normal [rad]", "error of depth [m]"), shown)}
-The depth of Polyhedra is its equivalent depth, the cube root of the overlap volume. Bullet and ODE find one or two of the four points of a prism that stands on its cut end.
+{markdown_table(PAGE_HEADS, shown)}
+The depth of Polyhedra is its equivalent depth, the cube root of the overlap volume. Bullet and ODE find one or two of
+the four points of a prism that stands on its cut end.
 """
 
 

@@ -146,8 +146,9 @@ def section(found, house, rounds):
                for m in found]
     return (
         f"## Rows of houses\n\nHouse {house} in strong shaking, dt = {DEFAULT_DT:g} s: medians of {rounds} processes"
-        f" each, run alternately. {machine()}.\n\n{markdown_table(SCALING, list(scaling(found)))}\nWall time of each engine per element"
-        f" and step [ns]:\n\n{markdown_table(('houses', 'threads', *names), engines)}"
+        f" each, run alternately. {machine()}.\n\n{markdown_table(SCALING, list(scaling(found)))}\n"
+        f"Wall time of each engine per element and step [ns]:\n\n"
+        f"{markdown_table(('houses', 'threads', *names), engines)}"
     )
 
 

@@ -14,13 +14,14 @@ from show_common import Parser, errors_in_a_line, file_name, path
 
 from yade_timber.base.notes import noted
 from yade_timber.base.time_step import DEFAULT_DT
-from yade_timber.motion import (add_motion_options, arias, interpolation_error, jma_intensity, motion_request, pga, pgd,
-                                pgv, scaled, significant_duration, with_then)
+from yade_timber.motion import (RecordError, add_motion_options, arias, interpolation_error, jma_intensity,
+                                motion_request, pga, pgd, pgv, scaled, significant_duration, with_then)
+from yade_timber.motion.measures import stated_intensity
 from yade_timber.pictures import motion_sheet
 
 
-def print_measures(motion, corner):
-    """Print one line per measure, with the peaks of each component and of the horizontal vector."""
+def print_measures(motion, corner, dt):
+    """Print one line per measure, with the peaks of each component and of the horizontal vector. dt: of a run [s]"""
     print(f"{motion.name}: {motion.source}")
     begins = f", from {motion.begins:%Y-%m-%d %H:%M:%S}" if motion.begins else ""
     print(f"{len(motion)} samples every {motion.dt:g} s, {motion.duration:g} s{begins}")
@@ -32,13 +33,15 @@ def print_measures(motion, corner):
     intensities = arias(motion)
     each = "".join(f"{intensities[component]:10.3f}" for component in ("ns", "ew", "ud"))
     print(f"{'Arias intensity [m/s]':22}{each}{intensities['total']:14.3f} (sum)")
-    intensity = jma_intensity(motion)
-    print(f"JMA intensity         {intensity.official:.1f} ({intensity.raw:.3f}; a0 = {intensity.a0:.1f} gal)")
+    if stated_intensity(motion) is None:
+        print("JMA intensity         none (needs 0.3 s of shaking)")
+    else:
+        intensity = jma_intensity(motion)
+        print(f"JMA intensity         {intensity.official:.1f} ({intensity.raw:.3f}; a0 = {intensity.a0:.1f} gal)")
     print(f"Duration D5-95 [s]    {significant_duration(motion):.2f}")
-    print(
-        f"Linear interpolation between samples errs by at most {100 * interpolation_error(motion):.2g} % of the PGA"
-        " (--resample: none)"
-    )
+    error = interpolation_error(motion, dt)
+    hint = " (--resample: none)" if error else ""
+    print(f"Linear interpolation between samples errs by at most {100 * error:.2g} % of the PGA{hint}")
     print(f"PGV and PGD after a zero-phase high-pass at {corner:g} Hz" if corner else "PGV and PGD without high-pass")
 
 
@@ -66,7 +69,9 @@ def main():
         request = motion_request(options)
         with noted():
             motion = scaled(request.motion(options.dt), request.factor)
-        print_measures(motion, corner)
+        if not motion.acceleration.any():
+            raise RecordError(f"{motion.name}: no acceleration; nothing to show")
+        print_measures(motion, corner, options.dt)
         written = motion_sheet.write(options.out or file_name(motion.name), motion, corner)
     print("written: " + ", ".join(map(str, written)))
 

@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""House files of the plan of tiled_house with a given wall quantity, by the rules of the Japanese building code.
+"""House files of the plan of tiled_house with a given wall quantity, by Japanese rules.
 
-The sheets of a storey and direction are scaled by one factor, so that the existing wall quantity is `grade` times the
-required one. Nothing else is changed.
+The sheets of a storey and direction are scaled by one factor, so that the existing wall quantity is the one that a rule
+requires for `grade`: 1.0, 1.25, 1.5. Nothing else is changed. Rules:
+law    the building code's wall quantity times the grade
+label  the quantity of grade 2 (1.25) or 3 (1.5) of the housing performance labelling, which counts all walls; the code
+       presumes that others than the counted ones carry a third
 """
 from house_storeys import AXES, wall_joints
 
@@ -16,6 +19,11 @@ HOUSE, STRUCTURE, MODULE = "tiled_house", "main", 0.91
 REQUIRED = {"light": (0.29, 0.15), "heavy": (0.33, 0.21)}
 """Length of wall of multiplier 1 per floor area, storeys 1 and 2 of a house of two storeys, light and heavy roof [m/m2]
 (Enforcement Order of the Building Standard Law, Article 46, paragraph 4, table 2, as in force until March 2025)."""
+LABEL = {1.25: (0.58, 0.25), 1.5: (0.69, 0.30)}
+"""Of a heavy roof, storeys 1 and 2, over K1 = 0.4 + 0.6 Rf and K2 = 1.3 + 0.07 / Rf with the ratio Rf of the floor
+areas of storeys 2 and 1 [m/m2] (evaluation standard of the performance labelling, Notification 1347 of 2001, 5.1-1)."""
+RULES = {"law": (1.0, 1.25, 1.5), "label": tuple(LABEL)}
+"""{rule: its grades}"""
 LARGEST_MULTIPLIER = 5.0
 """Of sheets on one another. [-] (Article 46, paragraph 4, table 1)"""
 
@@ -41,15 +49,19 @@ def bay_length(label):
     return MODULE * (high - low)
 
 
-def factors(model, wall_types, grade, roof="heavy"):
-    """{(storey, direction): factor on the sheets} for an existing wall quantity of `grade` times the required one."""
-    return {(k, d): grade * required_quantity(model, k, roof) / existing_quantity(model, wall_types, k, d)
-            for k in (1, 2) for d in AXES}
+def factors(model, wall_types, grade, rule="law"):
+    """{(storey, direction): factor on the sheets} for the wall quantity of a grade by a rule."""
+    areas = [floor_area(model, STRUCTURE, k) for k in (1, 2)]
+    return {(k, d): required_share(grade, rule, areas[1] / areas[0])[k - 1] * areas[k - 1]
+            / existing_quantity(model, wall_types, k, d) for k in (1, 2) for d in AXES}
 
 
-def required_quantity(model, storey, roof):
-    """[m]"""
-    return REQUIRED[roof][storey - 1] * floor_area(model, STRUCTURE, storey)
+def required_share(grade, rule, ratio, roof="heavy"):
+    """Wall quantity over floor area, storeys 1 and 2 [m/m2]. ratio: Rf [-]"""
+    if rule == "law":
+        return [grade * share for share in REQUIRED[roof]]
+    first, second = LABEL[grade]
+    return [first * (0.4 + 0.6 * ratio), second * (1.3 + 0.07 / ratio)]
 
 
 def listed(value):
@@ -57,12 +69,12 @@ def listed(value):
     return value if isinstance(value, (list, tuple)) else [value]
 
 
-def graded_house(grade, level):
-    """Content of the house file of a grade and level, as a dict."""
+def graded_house(grade, level, rule):
+    """Content of the house file of a grade, level of walls and rule, as a dict."""
     data = changed_house(HOUSE)
     model = build_house(load_house(HOUSE))
     walls, types = [], {}
-    for (storey, direction), factor in factors(model, data["wall_types"], grade).items():
+    for (storey, direction), factor in factors(model, data["wall_types"], grade, rule).items():
         for name, table in data["wall_types"].items():
             types[f"{name}{storey}{direction}"] = {**table, "multiplier": factor * table["multiplier"]}
         for line in data["structures"][STRUCTURE]["walls"]:
@@ -75,10 +87,10 @@ def graded_house(grade, level):
     return data
 
 
-def house_file(folder, grade, level):
-    """Write the house file of a grade and level. Returns its path."""
-    data = graded_house(grade, level)
+def house_file(folder, grade, level, rule="law"):
+    """Write the house file of a grade, level and rule. Returns its path."""
+    data = graded_house(grade, level, rule)
     path = folder / f"{data['name']}.yaml"
-    about = f"# Sheets scaled to {grade:g} times the required wall quantity by scripts/validation/graded_houses.py"
+    about = f"# Sheets scaled to the wall quantity of grade {grade:g} ({rule}) by scripts/validation/graded_houses.py"
     write_text(path, f"{about}\n{house_text(data)}")
     return path

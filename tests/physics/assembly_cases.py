@@ -126,7 +126,9 @@ def arch_opens_at_the_limit():
     # %; the arch stands at 2 % above the limit, too. The creep of a standing arch is rounding.
     for share, stands in ((0.95, False), (1.05, True), (3.0, True)):
         moved, creep = run_parts(parts, share * limit, 2.0)
-        rows.append(Row("6", f"arch: stands at {share:g} of the critical friction {limit:.4f} [-]", float(stands), float(-moved[3, 2] < 1e-3), bound=0, dt=DT))
+        rows.append(
+            Row("6", f"arch: stands at {share:g} of the critical friction {limit:.4f} [-]", float(stands),
+                float(-moved[3, 2] < 1e-3), bound=0, dt=DT))
         if stands:
             rows.append(Row("6", f"arch at {share:g}: creep in the second second [m]", 0, creep, bound=1e-12, dt=DT))
     return rows
@@ -190,7 +192,10 @@ def one_bay_frame(braced):
     ]
     ends = lambda x, z: np.array([[x - half, z], [x + half, z]])
     ties = [Tie("plate", "left", ends(0, 0), CORNER_FITTING), Tie("plate", "right", ends(SPAN, 0), CORNER_FITTING)]
-    ties += [Tie("left", "beam", ends(0, HEIGHT), CORNER_FITTING), Tie("right", "beam", ends(SPAN, HEIGHT), CORNER_FITTING)]
+    ties += [
+        Tie("left", "beam", ends(0, HEIGHT), CORNER_FITTING),
+        Tie("right", "beam", ends(SPAN, HEIGHT), CORNER_FITTING)
+    ]
     if braced:
         corners = brace_corners(np.array([0.2, 0.1]), np.array([SPAN - 0.2, HEIGHT - 0.1]), 0.09)
         parts.append(Part("brace", corners, 0.045))
@@ -273,4 +278,7 @@ def house_weight(settle=0.5, average=0.2):
         forces.append(load_on_fixed())
     # Remaining oscillation: light beams of the entrance in their undamped joints, snow on its soft springs. Observed:
     # 1.3e-4 (C2), 1e-6 averaged after 1.2 s.
-    return [Row("6", "house C2 with snow: force on the foundation [N]", weight(), np.mean(forces), bound=1e-3, dt=DT, note="mean of 0.2 s after 0.5 s")]
+    return [
+        Row("6", "house C2 with snow: force on the foundation [N]", weight(), np.mean(forces), bound=1e-3, dt=DT,
+            note="mean of 0.2 s after 0.5 s")
+    ]

@@ -28,9 +28,9 @@ light members.
 
 def shaken_portal(dt, scale=1.0, strength=None, beam=0.3):
     """The portal frame of item 9. scale: of the ground motion [-], strength: of the springs [N], None: unbreakable."""
-    shake = yw.GroundMotionEngine(
-        step=reference_frame.SAMPLE, acceleration=[Vector3(scale * a, 0, 0) for a in reference_frame.ground_samples()], start=0.1
-    )
+    shake = yw.GroundMotionEngine(step=reference_frame.SAMPLE, acceleration=[
+        Vector3(scale * a, 0, 0) for a in reference_frame.ground_samples()
+    ], start=0.1)
     build_frame(reference_frame.portal(beam), dt, ground_motion=shake)
     if strength is not None:
         for joint in engines.find_engine(yw.JointEngine).joints:
@@ -66,7 +66,9 @@ def closing(name, build, duration, dts=(DT, DT / 2, DT / 4), note="", least_orde
         build(dt)
         shares.append(share(balance(duration)))
     order = observed_order(dts, shares)
-    rows = [Row("7", f"{name}: residual / input [-]", 0, s, bound=REQUIRED, dt=dt, note=note) for s, dt in zip(shares, dts)]
+    rows = [
+        Row("7", f"{name}: residual / input [-]", 0, s, bound=REQUIRED, dt=dt, note=note) for s, dt in zip(shares, dts)
+    ]
     rows[-1].order, rows[-1].least_order = order, least_order
     return rows
 
@@ -120,6 +122,8 @@ def impacts_of_one_or_two_steps():
     """
     phases = [(k + 0.5) / 16 for k in range(16)]
     return [
-        Row("7", f"impact of a brace, {v:g} m/s: residual / kinetic [-]", 0, max((brace_impact(v, DT, p) for p in phases), key=abs), bound=1e-13, dt=DT, note="duration of two steps")
+        Row("7", f"impact of a brace, {v:g} m/s: residual / kinetic [-]", 0,
+            max((brace_impact(v, DT, p)
+                 for p in phases), key=abs), bound=1e-13, dt=DT, note="duration of two steps")
         for v in (5.0, 10.0, 20.0)
     ]

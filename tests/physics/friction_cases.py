@@ -173,6 +173,6 @@ def independent_of_position_and_direction():
     for name, where in poses.items():
         off = max((sliding_run(1e-4, orientation=q, origin=o)["end"] - reference).norm() for q, o in where)
         rows.append(
-            Row("2", f"sliding, {name}: distance from the reference [m]", 0.0, off, bound=1e-9, dt=1e-4, note="rounding")
-        )
+            Row("2", f"sliding, {name}: distance from the reference [m]", 0.0, off, bound=1e-9, dt=1e-4,
+                note="rounding"))
     return rows

@@ -75,7 +75,9 @@ class Impact:
     def closed_form(self, v):
         """Undamped: duration [s], overlap [m] and force at one point [N] at the peak, restitution [-]."""
         depth = (5 * self.mass * v**2 / (4 * self.points * self.constant)) ** 0.4
-        return {"duration": DURATION * depth / v, "overlap": depth, "force": self.constant * depth**1.5, "restitution": 1.0}
+        return {
+            "duration": DURATION * depth / v, "overlap": depth, "force": self.constant * depth**1.5, "restitution": 1.0
+        }
 
     def run(self, v, dt, span, phase=0.3, upper=None, **options):
         """Impact at v [m/s] that lasts less than 3 span [s]: the same quantities as closed_form().
@@ -93,9 +95,12 @@ class Impact:
 
         overlap, force, count = steps(int(3.2 * span / dt), probe).T
         assert count.max() == self.points and count[-1] == 0, "unexpected number of contact points"
-        out = (overlap[-2] - overlap[-1]) / dt  # free flight before and after: both ends of the contact are extrapolated
+        out = (overlap[-2] -
+               overlap[-1]) / dt  # free flight before and after: both ends of the contact are extrapolated
         separation = len(overlap) * dt + overlap[-1] / out
-        return {"duration": separation - gap / v, "overlap": peak(overlap), "force": peak(force), "restitution": out / v}
+        return {
+            "duration": separation - gap / v, "overlap": peak(overlap), "force": peak(force), "restitution": out / v
+        }
 
 
 def peak(samples):
@@ -121,9 +126,8 @@ def dashpot_restitution(power, points=1, ratio=1.0):
         return total(*y) if t > 1e-6 else 1.0
 
     separated.terminal, separated.direction = True, -1
-    run = solve_ivp(
-        lambda t, y: (y[1], -points * total(*y)), (0, 50), (0, 1), rtol=1e-12, atol=1e-14, events=separated, method="DOP853"
-    )
+    run = solve_ivp(lambda t, y: (y[1], -points * total(*y)), (0, 50), (0, 1), rtol=1e-12, atol=1e-14, events=separated,
+                    method="DOP853")
     return -run.y_events[0][0][1]
 
 
@@ -237,7 +241,9 @@ def restitution_converges():
     ones.
     """
     impact = Impact("plate")
-    span, expected, dts = impact.closed_form(1.0)["duration"], dashpot_restitution(1.5), (2e-5, 1e-5, 5e-6, 2.5e-6, 1.25e-6)
+    span, expected, dts = impact.closed_form(1.0)["duration"], dashpot_restitution(1.5), (
+        2e-5, 1e-5, 5e-6, 2.5e-6, 1.25e-6
+    )
     rows = []
     for name, sweeps, bound, least in (("implicit", 4, 1e-3, 1.0), ("explicit", 0, 6e-3, 0.7)):
         got = [worst_phase(impact, 1.0, dt, span, expected, sweeps=sweeps) for dt in dts]
@@ -275,7 +281,9 @@ def restitution_of_short_contacts():
             got = [rebound(impact, 1.0, span / count, k / 8, damping_ratio=ratio) for k in range(8)]
             name = f"restitution, damping ratio {ratio:g}, contact of {count:g} steps [-]"
             worst_one = max(got, key=lambda g: abs(g - expected))
-            rows.append(Row("1", name, expected, worst_one, bound=1e-9, dt=span / count, note="scipy DOP853; worst of 8 phases of a step"))
+            rows.append(
+                Row("1", name, expected, worst_one, bound=1e-9, dt=span / count,
+                    note="scipy DOP853; worst of 8 phases of a step"))
     return rows
 
 

@@ -62,7 +62,9 @@ def order_of_bodies():
     for scheme, bound in (("explicit", 1e-10), ("implicit", 2e-5)):
         options = SCHEMES[scheme]
         off = abs(final_positions(NAMES[::-1], **options) - final_positions(**options)).max()
-        rows.append(Row("8", f"bodies in reverse order, {scheme} dashpots: distance [m]", 0, off, bound=bound, dt=options["dt"]))
+        rows.append(
+            Row("8", f"bodies in reverse order, {scheme} dashpots: distance [m]", 0, off, bound=bound,
+                dt=options["dt"]))
     return rows
 
 
@@ -81,7 +83,10 @@ def far_apart_pairs():
     small_scene.join(other, **far)
     advance(DURATION)
     different = sum(a != b for a, b in zip(alone, small_scene.as_hex()))
-    return [Row("8", "second scene at 100 m: numbers of the first that differ [-]", 0, different, bound=0, dt=O.dt, note="of 52, all bits")]
+    return [
+        Row("8", "second scene at 100 m: numbers of the first that differ [-]", 0, different, bound=0, dt=O.dt,
+            note="of 52, all bits")
+    ]
 
 
 def in_other_process(threads, duration=DURATION, *words):
@@ -89,10 +94,14 @@ def in_other_process(threads, duration=DURATION, *words):
     script = os.path.abspath(small_scene.__file__)
     path = os.pathsep.join([os.path.dirname(os.path.dirname(yt.__file__)), os.environ.get("PYTHONPATH", "")])
     with tempfile.TemporaryDirectory() as folder:
-        run = subprocess.run(
-            [shutil.which("yade"), f"-j{threads}", "-n", "-x", script, str(duration), *words], cwd=folder, env={**os.environ, "PYTHONPATH": path}, capture_output=True, text=True, timeout=120
-        )
-    lines = {line.split()[0]: line.split()[1:] for line in run.stdout.splitlines() if line.startswith(("threads ", "state "))}
+        run = subprocess.run([shutil.which("yade"), f"-j{threads}", "-n", "-x", script,
+                              str(duration), *words], cwd=folder, env={**os.environ, "PYTHONPATH": path},
+                             capture_output=True, text=True, timeout=120)
+    lines = {
+        line.split()[0]: line.split()[1:]
+        for line in run.stdout.splitlines()
+        if line.startswith(("threads ", "state "))
+    }
     if run.returncode or len(lines) != 2:
         raise RuntimeError(f"yade -j{threads} failed:\n{run.stdout}\n{run.stderr}")
     return int(lines["threads"][0]), lines["state"]
@@ -106,7 +115,8 @@ def one_thread_or_two(duration=DURATION):
     (few, one), (many, two) = in_other_process(1, duration), in_other_process(2, duration)
     return [
         Row("8", "threads of the second run [-]", 2 * few, many, bound=0),
-        Row("8", "1 and 2 threads: numbers that differ [-]", 0, sum(a != b for a, b in zip(one, two)), bound=0, dt=1e-4, note="of 52, all bits"),
+        Row("8", "1 and 2 threads: numbers that differ [-]", 0, sum(a != b for a, b in zip(one, two)), bound=0, dt=1e-4,
+            note="of 52, all bits"),
     ]
 
 
@@ -116,9 +126,11 @@ def yielding_joints():
     in pose_of_the_scene.
     """
     rotation = Rotation.from_rotvec([0.3, -0.5, 0.8]).as_matrix()
-    off = abs(final_positions(rotation=rotation, **small_scene.YIELDING) - final_positions(**small_scene.YIELDING)).max()
+    off = abs(final_positions(rotation=rotation, **small_scene.YIELDING) -
+              final_positions(**small_scene.YIELDING)).max()
     (_, one), (_, two) = in_other_process(1, DURATION, "yielding"), in_other_process(2, DURATION, "yielding")
     return [
         Row("8", "yielding joints, rotated scene: distance [m]", 0, off, bound=1e-8, dt=1e-4),
-        Row("8", "yielding joints, 1 and 2 threads: numbers that differ [-]", 0, sum(a != b for a, b in zip(one, two)), bound=0, dt=1e-4, note="of 52, all bits"),
+        Row("8", "yielding joints, 1 and 2 threads: numbers that differ [-]", 0, sum(a != b for a, b in zip(one, two)),
+            bound=0, dt=1e-4, note="of 52, all bits"),
     ]

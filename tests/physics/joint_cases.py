@@ -25,7 +25,8 @@ STIFFNESS_SHARE = {"spring": 1.0, "joint": 1 / len(CORNERS)}
 """Share of the stiffness in each spring, for values per spring and per joint. [-]"""
 
 
-def joined(dt, stiffness=(STIFFNESS, STIFFNESS), strength=STRENGTH, per="spring", points=CORNERS, density=DENSITY, fixed=False, slip=None):
+def joined(dt, stiffness=(STIFFNESS, STIFFNESS), strength=STRENGTH, per="spring", points=CORNERS, density=DENSITY,
+           fixed=False, slip=None):
     """A column above a beam, and the joint between them."""
     beam = yt.box(BEAM, (0, 0, -(BEAM[2] + SPACE) / 2), fixed=fixed)
     column = yt.box(COLUMN, (0, 0, (COLUMN[2] + SPACE) / 2), None, yt.timber(density=density))
@@ -86,7 +87,8 @@ def frequencies():
     for per, ks in (("spring", 1.0), ("joint", 1.0), ("spring", 0.5)):
         stiffness = (STIFFNESS, ks * STIFFNESS)
         rates, modes, mass = linear_modes(stiffness, STIFFNESS_SHARE[per])
-        pairs = [(w, mode_frequency(modes[:, k], mass, w, dt, stiffness=stiffness, per=per)) for k, w in enumerate(rates)]
+        pairs = [(w, mode_frequency(modes[:, k], mass, w, dt, stiffness=stiffness, per=per))
+                 for k, w in enumerate(rates)]
         rows.append(
             worst(
                 "4",
@@ -130,7 +132,8 @@ def decay(dt, mode, mass, rate, ratio):
     times, values = steps(round((periods + 1) * 2 * np.pi / damped / dt), probe).T
     # the modal velocity of a damped mode that starts at its equilibrium; phase and amplitude by least squares
     basis = np.exp(-ratio * rate * times)[:, None] * np.column_stack([np.cos(damped * times), np.sin(damped * times)])
-    early, late = (np.hypot(*np.linalg.lstsq(basis[part], values[part], rcond=None)[0]) for part in np.array_split(np.arange(len(times)), 2))
+    early, late = (np.hypot(*np.linalg.lstsq(basis[part], values[part], rcond=None)[0])
+                   for part in np.array_split(np.arange(len(times)), 2))
     return ratio - np.log(late / early) / (rate * (times[len(times) // 2:].mean() - times[: len(times) // 2].mean()))
 
 
@@ -145,7 +148,9 @@ def damping_ratio_of_each_mode():
     rates, modes, mass = linear_modes((STIFFNESS, STIFFNESS), 1.0)
     for ratio in (0.02, 0.05, 0.3):
         pairs = [(ratio, decay(dt, modes[:, k], mass, w, ratio)) for k, w in enumerate(rates)]
-        rows.append(worst("4", f"joint with a damping ratio of {ratio:g}: worst of 6 modes [-]", pairs, 2e-3, dt=dt, note="leapfrog and trapezoidal dashpot"))
+        rows.append(
+            worst("4", f"joint with a damping ratio of {ratio:g}: worst of 6 modes [-]", pairs, 2e-3, dt=dt,
+                  note="leapfrog and trapezoidal dashpot"))
     return rows
 
 
@@ -181,7 +186,9 @@ def breaks_at_the_strength():
             stretch, force, released, causes = break_joint(cause, per)
             assert causes == [cause] * 4, causes
             name = f"{cause} to failure, per {per}"
-            rows.append(Row("4", f"{name}: stretch [m]", STRETCH, stretch, bound=1.01e-4, dt=1e-4, note="displacement in one step"))
+            rows.append(
+                Row("4", f"{name}: stretch [m]", STRETCH, stretch, bound=1.01e-4, dt=1e-4,
+                    note="displacement in one step"))
             rows.append(
                 Row(
                     "4",
@@ -271,12 +278,14 @@ def swing(dt, count, ks=1.0):
     (band about its mean; mean of the last minus mean of the first tenth), linear and angular momentum.
     """
     beam, column, joint = joined(dt, stiffness=(STIFFNESS, ks * STIFFNESS))
-    for body, velocity, omega in ((beam, (0.3, -0.2, -0.4), (0.5, 0.2, 1.0)), (column, (-0.1, 0.3, 0.6), (1.0, -1.5, -2.0))):
+    for body, velocity, omega in ((beam, (0.3, -0.2, -0.4), (0.5, 0.2, 1.0)), (column, (-0.1, 0.3, 0.6), (1.0, -1.5,
+                                                                                                          -2.0))):
         body.state.vel = Vector3(*velocity)
         spin(body, omega)
 
     def probe():
-        angular = sum((b.state.angMom + b.state.mass * b.state.pos.cross(b.state.vel) for b in (beam, column)), Vector3.Zero)
+        angular = sum((b.state.angMom + b.state.mass * b.state.pos.cross(b.state.vel) for b in (beam, column)),
+                      Vector3.Zero)
         linear = sum((b.state.mass * b.state.vel for b in (beam, column)), Vector3.Zero)
         return [yt.energy_residual(), *linear, *angular]
 
@@ -286,7 +295,10 @@ def swing(dt, count, ks=1.0):
     assert not any(joint.broken)
     balance = change[:, 0] / first[0]
     parts = {"linear momentum": slice(1, 4), "angular momentum": slice(4, 7)}
-    found = {name: np.linalg.norm(change[:, part], axis=1).max() / np.linalg.norm(first[part]) for name, part in parts.items()}
+    found = {
+        name: np.linalg.norm(change[:, part], axis=1).max() / np.linalg.norm(first[part])
+        for name, part in parts.items()
+    }
     return {
         "energy band": np.abs(balance - balance.mean()).max(),
         "energy drift": balance[-100:].mean() - balance[:100].mean(),
@@ -304,8 +316,8 @@ def a_million_steps_unbroken():
     got, dt = swing(1e-4, 1000000), 1e-4
     bounds = {"energy band": 1e-5, "energy drift": 1e-6, "linear momentum": 1e-11, "angular momentum": 1e-11}
     return [
-        Row("4", f"unbroken joint, 1e6 steps: {what} [-]", 0.0, got[what], bound=bound, dt=dt, note="leapfrog; rounding of momenta")
-        for what, bound in bounds.items()
+        Row("4", f"unbroken joint, 1e6 steps: {what} [-]", 0.0, got[what], bound=bound, dt=dt,
+            note="leapfrog; rounding of momenta") for what, bound in bounds.items()
     ]
 
 
@@ -329,6 +341,6 @@ def energy_band_converges():
         )
         change = max(r["angular momentum"] for r in runs)
         rows.append(
-            Row("4", f"unbroken joint, ks = {ks:g} kn, 10 s: angular momentum [-]", 0.0, change, bound=1e-11, note="rounding")
-        )
+            Row("4", f"unbroken joint, ks = {ks:g} kn, 10 s: angular momentum [-]", 0.0, change, bound=1e-11,
+                note="rounding"))
     return rows

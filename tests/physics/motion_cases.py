@@ -68,7 +68,8 @@ def attitude(time):
         r, w = y[:9].reshape(3, 3), y[9:]
         return np.concatenate([np.cross(r, w).ravel(), np.cross(MOMENTS * w, w) / MOMENTS])
 
-    run = solve_ivp(rates, (0, time), np.concatenate([np.eye(3).ravel(), START]), method="DOP853", rtol=1e-12, atol=1e-13)
+    run = solve_ivp(rates, (0, time), np.concatenate([np.eye(3).ravel(), START]), method="DOP853", rtol=1e-12,
+                    atol=1e-13)
     return run.y[:9, -1].reshape(3, 3)
 
 
@@ -117,7 +118,9 @@ def table(integrator, dts, quantities, momentum_bound=1e-13):
     for name, (key, expected, bound, order) in quantities.items():
         rows += series("5", f"{integrator}: {name}", expected, [run[key] for run in runs], dts, bound, order, note=note)
     change = max(run["momentum"] for run in runs)  # observed 1.3e-15 for any dt
-    return rows + [Row("5", f"{integrator}: largest change of |L| [-]", 0.0, change, bound=momentum_bound, note="rounding")]
+    return rows + [
+        Row("5", f"{integrator}: largest change of |L| [-]", 0.0, change, bound=momentum_bound, note="rounding")
+    ]
 
 
 @case
@@ -164,7 +167,8 @@ def newton_integrator_flips():
     """
     flip = JACOBI.flips(FLIPS)[-1]
     quantities = {
-        "time of the third flip [s]": ("flip", flip, np.inf, None), "largest change of energy [-]": ("energy", 0.0, np.inf, None)
+        "time of the third flip [s]": ("flip", flip, np.inf, None), "largest change of energy [-]": (
+            "energy", 0.0, np.inf, None)
     }
     return table("NewtonIntegrator", (1e-3, 5e-4, 2.5e-4), quantities, np.inf)
 
@@ -197,5 +201,6 @@ def free_fall():
         note="leapfrog: velocity at a half step",
     )
     return rows + [
-        Row("5", "free fall for 1 s, at rest at 0 [m]", expected, fall(1e-4, G * 1e-4 / 2), bound=1e-12, dt=1e-4, note="rounding")
+        Row("5", "free fall for 1 s, at rest at 0 [m]", expected, fall(1e-4, G * 1e-4 / 2), bound=1e-12, dt=1e-4,
+            note="rounding")
     ]

@@ -59,11 +59,11 @@ def by_count(quantity, expected, work, counts, bound, least_order, note):
     """Rows for paths in several numbers of steps. These scenes have no time scale: the order is that in the length of a
     step.
     """
-    rows = series(
-        "2", quantity, expected, [work(count) for count in counts], [1 / count for count in counts], bound, least_order, note=note
-    )
+    rows = series("2", quantity, expected, [work(count) for count in counts], [1 / count for count in counts], bound,
+                  least_order, note=note)
     return [
-        dataclasses.replace(row, quantity=f"{row.quantity[:-4]}, {count} steps [J]", dt=None) for row, count in zip(rows, counts)
+        dataclasses.replace(row, quantity=f"{row.quantity[:-4]}, {count} steps [J]", dt=None)
+        for row, count in zip(rows, counts)
     ]
 
 
@@ -155,7 +155,10 @@ def squeeze_and_shear_cycle():
     squeezed, shift = 1.5 * OVERLAP, 0.3 * MU * FORCE / STIFFNESS
     expected = POINTS * (shear_stiffness(CONSTANT, squeezed) - shear_stiffness(CONSTANT, OVERLAP)) * shift**2 / 2
     down, up = np.array(deeper(squeezed)), -np.array(deeper(squeezed))
-    orders = {"shear first": [(shift, 0, 0), down, (-shift, 0, 0), up], "squeeze first": [down, (shift, 0, 0), up, (-shift, 0, 0)]}
+    orders = {
+        "shear first": [(shift, 0, 0), down, (-shift, 0, 0), up],
+        "squeeze first": [down, (shift, 0, 0), up, (-shift, 0, 0)]
+    }
     rows = []
     for name, parts in orders.items():
         block = pair()[1]

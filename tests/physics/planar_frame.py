@@ -75,7 +75,8 @@ def inset(corners, radius):
     along, normal = edge_normals(corners)
     offset = (normal * corners).sum(1) - radius
     before, offset_before = np.roll(normal, 1, axis=0), np.roll(offset, 1)
-    return np.array([np.linalg.solve([n0, n1], [d0, d1]) for n0, n1, d0, d1 in zip(before, normal, offset_before, offset)])
+    return np.array(
+        [np.linalg.solve([n0, n1], [d0, d1]) for n0, n1, d0, d1 in zip(before, normal, offset_before, offset)])
 
 
 def rounding(part):
@@ -129,8 +130,10 @@ class Frame:
             length = np.linalg.norm(np.roll(cores[b], -1, axis=0) - cores[b], axis=1)
             for corner in cores[a]:
                 for tail, t, n, size in zip(cores[b], along, normal, length):
-                    if abs((corner - tail) @ n) < reach + radius[a] + radius[b] and -reach < (corner - tail) @ t < size + reach:
-                        rows.append((a, b, flat(corner) - self.start[a], flat(tail) - self.start[b], flat(n), size, radius[a], radius[a] + radius[b]))
+                    if abs((corner - tail)
+                           @ n) < reach + radius[a] + radius[b] and -reach < (corner - tail) @ t < size + reach:
+                        rows.append((a, b, flat(corner) - self.start[a], flat(tail) - self.start[b], flat(n), size,
+                                     radius[a], radius[a] + radius[b]))
         columns = [np.array(c) for c in zip(*rows)]
         self.of, self.on, self.corner, self.edge, self.normal, self.length, self.radius, self.touch = columns
         self.sum_of, self.sum_on = self._sums(self.of), self._sums(self.on)
@@ -150,7 +153,9 @@ class Frame:
         self.pair_mass = 1 / (inverse[self.of] + inverse[self.on])  # Eq. 43
 
     def _set_springs(self, ties):
-        rows = [(self.index[t.first], self.index[t.second], flat(point), t.stiffness) for t in ties for point in t.points]
+        rows = [(self.index[t.first], self.index[t.second], flat(point), t.stiffness)
+                for t in ties
+                for point in t.points]
         columns = list(zip(*rows)) if rows else [[], [], [], []]
         self.spring_a, self.spring_b = np.array(columns[0], int), np.array(columns[1], int)
         self.sum_spring_a, self.sum_spring_b = self._sums(self.spring_a), self._sums(self.spring_b)
@@ -164,7 +169,8 @@ class Frame:
         rotation_on = rotation[self.on]
         x = position[self.of] + rotation[self.of] * self.corner
         normal = rotation_on * self.normal
-        gap = normal.conj() * (x - position[self.on] - rotation_on * self.edge)  # height + i times the distance along the side
+        gap = normal.conj() * (x - position[self.on] - rotation_on * self.edge
+                               )  # height + i times the distance along the side
         overlap = self.touch - gap.real
         near = (overlap > 0) & (gap.real > 0) & (gap.imag >= 0) & (gap.imag <= self.length)
         overlap = np.where(near, overlap, 0.0)
@@ -233,7 +239,9 @@ class LinearFrame:
         position, angle = self.configuration(q)
         overlap, at, _ = f.overlaps(position, angle)
         back = np.exp(-1j * angle)
-        ends = self.shear_springs[1:] if self.shear_springs else (back[f.of] * (at - position[f.of]), back[f.on] * (at - position[f.on]))
+        ends = self.shear_springs[1:] if self.shear_springs else (
+            back[f.of] * (at - position[f.of]), back[f.on] * (at - position[f.on])
+        )
         self.shear_springs = (f.shear_ratio * f.normal_law(overlap)[1], *ends)
 
     def _slope(self, q, step=1e-9):

@@ -57,4 +57,5 @@ def positions():
 def start_in_mode(parts, shape):
     """Give the parts (ids of the free ones) the velocities of a mode shape: (x, z, angle) for each, [m/s], [rad/s]."""
     for k, (x, z, angle) in zip(parts, shape.reshape(-1, 3)):
-        yt.set_velocity(O.bodies[int(k)], (x, 0, z), (0, -angle, 0))  # angles are positive from x to z: negative about y
+        yt.set_velocity(O.bodies[int(k)], (x, 0, z),
+                        (0, -angle, 0))  # angles are positive from x to z: negative about y

@@ -18,9 +18,9 @@ REFERENCE_DT = 2e-5
 
 def in_yade(dt, **options):
     """Displacements (m, parts, 3) of the frame in YADE [m]."""
-    motion = yw.GroundMotionEngine(
-        step=reference_frame.SAMPLE, acceleration=[Vector3(a, 0, 0) for a in reference_frame.ground_samples()], start=reference_frame.START
-    )
+    motion = yw.GroundMotionEngine(step=reference_frame.SAMPLE, acceleration=[
+        Vector3(a, 0, 0) for a in reference_frame.ground_samples()
+    ], start=reference_frame.START)
     build_frame(reference_frame.portal(), dt, ground_motion=motion, **options)
     start = positions()
     return recorded(DURATION, EVERY, positions) - start
@@ -39,16 +39,21 @@ def portal_frame():
     explicit = in_yade(REFERENCE_DT, sweeps=0)
     rows = [
         # The comparison covers sliding and uplift only if both occur.
-        Row("9", "portal: feet slide and lift by more than 1 mm [-]", 1, float(last.slid > 1e-3 and moved[:, 1:3].imag.max() > 1e-3), bound=0),
+        Row("9", "portal: feet slide and lift by more than 1 mm [-]", 1,
+            float(last.slid > 1e-3 and moved[:, 1:3].imag.max() > 1e-3), bound=0),
         # Same equations and scheme, implemented twice: rounding, 1e-16 m per step, amplified by impacts of stiff
         # contacts. Observed: 1e-12 to 3e-10, depending on the order of products.
-        Row("9", "portal: explicit dashpots, largest distance [m]", 0, abs(in_plane(explicit) - moved).max(), bound=1e-9, dt=REFERENCE_DT, note=f"of {peak:.3g} m"),
+        Row("9", "portal: explicit dashpots, largest distance [m]", 0,
+            abs(in_plane(explicit) - moved).max(), bound=1e-9, dt=REFERENCE_DT, note=f"of {peak:.3g} m"),
         # The prisms are symmetric about the plane: rounding alone moves them out of it.
-        Row("9", "portal: displacement out of the plane [m]", 0, abs(explicit[:, :, 1]).max(), bound=1e-12, dt=REFERENCE_DT),
+        Row("9", "portal: displacement out of the plane [m]", 0,
+            abs(explicit[:, :, 1]).max(), bound=1e-12, dt=REFERENCE_DT),
     ]
     for dt, bound in ((1e-4, 5e-3), (5e-5, 5e-3)):
         # The time of landing is resolved to dt, and the sliding distance until then is permanent. Observed: 1.2e-3 and
         # 4e-4 of the peak.
         off = abs(in_plane(in_yade(dt)) - moved).max() / peak
-        rows.append(Row("9", "portal: implicit dashpots, largest distance / peak [-]", 0, off, bound=bound, dt=dt, note=f"peak {peak:.3g} m"))
+        rows.append(
+            Row("9", "portal: implicit dashpots, largest distance / peak [-]", 0, off, bound=bound, dt=dt,
+                note=f"peak {peak:.3g} m"))
     return rows

@@ -79,7 +79,8 @@ class FrameMotion:
         elastic, stiffness = f.normal_law(overlap)
         relative = (self.velocity_at(at, f.of) - self.velocity_at(at, f.on)) * normal.conj()
         separation, slip = relative.real, relative.imag
-        sliding_distance = (self.dt * (self.velocity_at(at, f.of, 0.5) - self.velocity_at(at, f.on, 0.5)) * normal.conj()).imag
+        sliding_distance = (self.dt * (self.velocity_at(at, f.of, 0.5) - self.velocity_at(at, f.on, 0.5)) *
+                            normal.conj()).imag
         ratio = np.divide(stiffness, self.stiffness, out=np.zeros_like(stiffness), where=self.stiffness > 0)
         shear = np.minimum(1, ratio) * self.shear - f.shear_ratio * stiffness * sliding_distance
         damping = 2 * np.sqrt(f.pair_mass * stiffness)
@@ -121,5 +122,8 @@ def history(dt, duration, every):
 if __name__ == "__main__":
     displacements, angles, last = history(2e-5, 1.0, 0.01)
     for k, (moved, angle) in enumerate(zip(displacements, angles)):
-        print(f"{0.01 * k:.2f} s: beam {moved[3]: .6e} m, left column {angle[1]: .6e} rad, right foot up {moved[2].imag: .6e} m")
+        print(
+            f"{0.01 * k:.2f} s: beam {moved[3]: .6e} m, left column {angle[1]: .6e} rad, right foot up "
+            f"{moved[2].imag: .6e} m"
+        )
     print(f"total sliding distance {last.slid:.3e} m")

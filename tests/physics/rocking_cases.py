@@ -138,7 +138,9 @@ def topple_angle():
     for _ in range(10):
         middle = (low + high) / 2
         low, high = (low, middle) if topples(middle) else (middle, high)
-    return [Row("3", "topple angle [rad]", TOPPLE, (low + high) / 2, bound=5e-5, dt=2e-4, note="width of the last interval")]
+    return [
+        Row("3", "topple angle [rad]", TOPPLE, (low + high) / 2, bound=5e-5, dt=2e-4, note="width of the last interval")
+    ]
 
 
 def standing_block(acceleration, dt=1e-4):

@@ -64,10 +64,9 @@ def check(rows):
     assert rows, "no rows: nothing was compared"
     wrong = [row for row in rows if not row.passes]
     assert not wrong, "\n" + "\n".join(
-        f"{r.item} {r.quantity}: expected {r.expected:.9g}, got {r.got:.9g}, error {r.error:.3g} (bound {r.bound:.3g}), "
-        f"order {r.order} (least {r.least_order}), dt {r.dt}"
-        for r in wrong
-    )
+        f"{r.item} {r.quantity}: expected {r.expected:.9g}, got {r.got:.9g}, error {r.error:.3g} (bound "
+        f"{r.bound:.3g}), "
+        f"order {r.order} (least {r.least_order}), dt {r.dt}" for r in wrong)
 
 
 def observed_order(steps, errors):

@@ -73,8 +73,12 @@ def loop_area():
             limit = backbone(a) / STIFFNESS
             area = count * 4 * SHARE * backbone(a) * (a - limit)
             name = f"yielding joint, per {per}, steady cycle of {1000 * a:g} mm"
-            rows.append(Row("4", f"{name}: area of the loop [J]", area, work(loop), bound=1e-6, dt=dt, note="recoil of the column"))
-            rows.append(Row("4", f"{name}: energy dissipated [J]", area, loop[-1, 2] - loop[0, 2], bound=1e-6, dt=dt, note="recoil of the column"))
+            rows.append(
+                Row("4", f"{name}: area of the loop [J]", area, work(loop), bound=1e-6, dt=dt,
+                    note="recoil of the column"))
+            rows.append(
+                Row("4", f"{name}: energy dissipated [J]", area, loop[-1, 2] - loop[0, 2], bound=1e-6, dt=dt,
+                    note="recoil of the column"))
     return rows
 
 
@@ -94,10 +98,14 @@ def pinching():
         off = 0.0
         for k, (stretch, got, _) in enumerate(path):
             back = 1 if k <= half else -1
-            friction = -back * force if back * stretch < a - 2 * limit else back * (force - STIFFNESS * (a - back * stretch))
+            friction = -back * force if back * stretch < a - 2 * limit else back * (
+                force - STIFFNESS * (a - back * stretch)
+            )
             slip = np.sign(stretch) * STIFFNESS * max(0.0, abs(stretch) - slack)
             off = max(off, abs(got / 4 - share * friction - (1 - share) * slip))
-        rows.append(Row("4", f"yielding joint, friction share {share:g}, pinching path: largest error / F [-]", 0, off / STRENGTH, bound=1e-5, dt=dt, note="recoil of the column"))
+        rows.append(
+            Row("4", f"yielding joint, friction share {share:g}, pinching path: largest error / F [-]", 0,
+                off / STRENGTH, bound=1e-5, dt=dt, note="recoil of the column"))
     return rows
 
 
@@ -124,9 +132,12 @@ def energy_to_failure():
             assert [b.cause for b in engine.breaks] == [cause] * 4, engine.breaks
             name = f"yielding joint, {cause} to failure, per {per}"
             rows += [
-                Row("4", f"{name}: stretch [m]", ULTIMATE, stretch, bound=5.1e-4, dt=dt, note="displacement in one step"),
-                Row("4", f"{name}: energy dissipated [J]", count * area, engine.yielded, bound=1e-12, dt=dt, note="rounding"),
-                Row("4", f"{name}: work of the forces [J]", count * area, done, bound=1e-5, dt=dt, note="kinks within a step"),
+                Row("4", f"{name}: stretch [m]", ULTIMATE, stretch, bound=5.1e-4, dt=dt,
+                    note="displacement in one step"),
+                Row("4", f"{name}: energy dissipated [J]", count * area, engine.yielded, bound=1e-12, dt=dt,
+                    note="rounding"),
+                Row("4", f"{name}: work of the forces [J]", count * area, done, bound=1e-5, dt=dt,
+                    note="kinks within a step"),
                 Row("4", f"{name}: energy released [J]", 0, engine.released, bound=0, dt=dt, note="exact"),
             ]
     return rows
@@ -153,7 +164,11 @@ def oscillator_that_yields():
     mass = yielding(1e-4)[1].state.mass
     stretch = LIMIT / 2 + mass * speed**2 / (8 * STRENGTH)
     assert LIMIT < stretch < SOFTENING, stretch
-    rows += series("4", "oscillator that yields: largest stretch [m]", stretch, [run[0] for run in runs], dts, 1e-3, note="leapfrog")
-    rows += series("4", "oscillator that yields: residual / energy [-]", 0, [run[1] for run in runs], dts, 1e-3, 1.0, note="leapfrog; kinks within a step")
-    rows.append(Row("4", "oscillator that yields: share of the energy dissipated (> 0.5) [-]", 1, float(runs[-1][2] > 0.5), bound=0))
+    rows += series("4", "oscillator that yields: largest stretch [m]", stretch, [run[0] for run in runs], dts, 1e-3,
+                   note="leapfrog")
+    rows += series("4", "oscillator that yields: residual / energy [-]", 0, [run[1] for run in runs], dts, 1e-3, 1.0,
+                   note="leapfrog; kinks within a step")
+    rows.append(
+        Row("4", "oscillator that yields: share of the energy dissipated (> 0.5) [-]", 1, float(runs[-1][2] > 0.5),
+            bound=0))
     return rows

@@ -34,7 +34,8 @@ def move(displacement, angle=(0, 0, 0)):
     """
     body = O.bodies[1]
     body.state.vel = Vector3(*displacement) / DT
-    body.state.angMom = body.state.ori * Vector3(*[w * i for w, i in zip(body.state.ori.conjugate() * Vector3(*angle) / DT, body.state.inertia)])
+    body.state.angMom = body.state.ori * Vector3(
+        *[w * i for w, i in zip(body.state.ori.conjugate() * Vector3(*angle) / DT, body.state.inertia)])
     body.state.angVel = Vector3(*angle) / DT
     O.step()
     body.state.vel = body.state.angVel = body.state.angMom = Vector3.Zero
@@ -81,7 +82,9 @@ def compared(name, energy, directions, scale, bound):
     rows = []
     for what, direction in directions.items():
         acting, expected = slope(energy, np.array(direction, float))
-        rows.append(Row("8", f"{name}, {what}: force or torque [N, N m]", expected, acting, error=abs(acting - expected) / scale, bound=bound, note="minus the derivative of the energy"))
+        rows.append(
+            Row("8", f"{name}, {what}: force or torque [N, N m]", expected, acting,
+                error=abs(acting - expected) / scale, bound=bound, note="minus the derivative of the energy"))
     return rows
 
 
@@ -93,7 +96,8 @@ def contact_normal():
     scale = np.linalg.norm(move((0, 0, 0)))
     # Central differences: (h / 5 um)^2 / 16 = 3e-7 for n^1.5; more at the two corners that the tilt lifts.
     # Observed: 5e-7.
-    return compared("contact", contact_energy, {"pressing": (0, 0, 1, 0, 0, 0), "tilting": (0, 0, 0, 1, 0.5, 0)}, scale, 1e-5)
+    return compared("contact", contact_energy, {"pressing": (0, 0, 1, 0, 0, 0), "tilting": (0, 0, 0, 1, 0.5, 0)}, scale,
+                    1e-5)
 
 
 @case
@@ -103,7 +107,8 @@ def contact_tangential():
     move((2e-7, 1e-7, 0), (0, 0, 3e-7))
     scale = np.linalg.norm(move((0, 0, 0))[:2])
     # The tangential spring is linear at constant overlap: rounding of the energies. Observed: 4e-13.
-    return compared("stretched tangential spring", contact_energy, {"east": (1, 0, 0, 0, 0, 0), "north": (0, 1, 0, 0, 0, 0), "twist": (0, 0, 0, 0, 0, 1)}, scale, 1e-9)
+    return compared("stretched tangential spring", contact_energy,
+                    {"east": (1, 0, 0, 0, 0, 0), "north": (0, 1, 0, 0, 0, 0), "twist": (0, 0, 0, 0, 0, 1)}, scale, 1e-9)
 
 
 @case
@@ -132,6 +137,8 @@ def first_body(name, engine, scale):
     moment = [np.array(O.forces.t(k, True)) + np.cross(O.bodies[k].state.pos, force[k]) for k in (0, 1)]
     # Rounding of moments of 1e4 N m.
     return [
-        Row("8", f"joint, {name} stiffnesses: sum of forces / force [-]", 0, np.linalg.norm(sum(force)) / scale, bound=1e-12),
-        Row("8", f"joint, {name} stiffnesses: sum of moments / moment [-]", 0, np.linalg.norm(sum(moment)) / scale, bound=1e-12),
+        Row("8", f"joint, {name} stiffnesses: sum of forces / force [-]", 0,
+            np.linalg.norm(sum(force)) / scale, bound=1e-12),
+        Row("8", f"joint, {name} stiffnesses: sum of moments / moment [-]", 0,
+            np.linalg.norm(sum(moment)) / scale, bound=1e-12),
     ]

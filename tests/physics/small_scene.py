@@ -12,7 +12,10 @@ import yade_timber as yt
 O = yw.Omega()
 CORNERS = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
 SIZES = {"plate": (3, 2.5, 0.2), "column": (0.12, 0.14, 1.2), "beam": (0.2, 1.0, 0.15), "block": (0.3, 0.25, 0.2)}
-CENTRES = {"plate": (0, 0, -0.1), "column": (0.03, 0.02, 0.6 - 3e-6), "beam": (0, 0, 1.275 - 6e-6), "block": (0.55, 0.15, 0.1 - 3e-6)}
+CENTRES = {
+    "plate": (0, 0, -0.1), "column": (0.03, 0.02, 0.6 - 3e-6), "beam": (0, 0, 1.275 - 6e-6), "block": (
+        0.55, 0.15, 0.1 - 3e-6)
+}
 """Centres of the bodies, with overlaps of 3 um: zero overlap would be a tie. [m]"""
 ANGLES = {"plate": 0.02, "column": 0.3, "beam": 0.1, "block": -0.4}
 """Rotations about the vertical. [rad]"""
@@ -46,7 +49,8 @@ def append(order=NAMES, rotation=np.eye(3), shift=(0, 0, 0)):
     ids, shift = {}, np.asarray(shift, float)
     for name in order:
         ids[name] = O.bodies.append(yt.polyhedron(corners(name) @ rotation.T + shift, fixed=name == "plate", name=name))
-    yt.set_velocity(O.bodies[ids["block"]], rotation @ (-2.2, -0.3, 0), np.linalg.det(rotation) * rotation @ (0, 0, 2.0))
+    yt.set_velocity(O.bodies[ids["block"]], rotation @ (-2.2, -0.3, 0),
+                    np.linalg.det(rotation) * rotation @ (0, 0, 2.0))
     return ids
 
 
@@ -75,7 +79,10 @@ def poses(ids=range(4)):
 
 def as_hex(ids=range(4)):
     """Positions, orientations, velocities and angular momenta, to the last bit."""
-    values = [list(s.pos) + [s.ori[k] for k in range(4)] + list(s.vel) + list(s.angMom) for s in (O.bodies[int(i)].state for i in ids)]
+    values = [
+        list(s.pos) + [s.ori[k] for k in range(4)] + list(s.vel) + list(s.angMom)
+        for s in (O.bodies[int(i)].state for i in ids)
+    ]
     return [x.hex() for row in values for x in row]
 
 

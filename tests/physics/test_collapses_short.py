@@ -26,6 +26,7 @@ def test_a_fault_is_seen():
     """Of a sound outcome with one number changed."""
     sound = outcome(Heap("heap", 0, duration=0.1))
     expect_sound([sound])
-    for name, value in {"error": "body 3 left", "created": 2e-4, "negative": 1e-8, "change": nan, "residual": nan}.items():
+    for name, value in {"error": "body 3 left", "created": 2e-4, "negative": 1e-8, "change": nan,
+                        "residual": nan}.items():
         with pytest.raises(AssertionError, match="heap: "):
             expect_sound([replace(sound, **{name: value})])

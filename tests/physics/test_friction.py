@@ -6,6 +6,7 @@ import pytest
 from rows import check
 
 
-@pytest.mark.parametrize("function", friction_cases.case.functions + path_cases.case.functions, ids=lambda f: f.__name__)
+@pytest.mark.parametrize("function", friction_cases.case.functions + path_cases.case.functions,
+                         ids=lambda f: f.__name__)
 def test(function):
     check(function())

@@ -6,6 +6,7 @@ import slope_cases
 from rows import check
 
 
-@pytest.mark.parametrize("function", invariance_cases.case.functions + slope_cases.case.functions, ids=lambda f: f.__name__)
+@pytest.mark.parametrize("function", invariance_cases.case.functions + slope_cases.case.functions,
+                         ids=lambda f: f.__name__)
 def test(function):
     check(function())

@@ -46,7 +46,9 @@ def test_period_of_a_one_mass_frame():
     mass, stiffness = O.bodies[slab].state.mass, 4 / (HEIGHT**2 / (2 * KN * SIDE**2) + 1 / (2 * KS))
     sway = [mode for mode in natural_modes() if max(mode.mass[:2]) > 0.5 * mass][:2]
     assert [mode.period for mode in sway] == pytest.approx([2 * np.pi * np.sqrt(mass / stiffness)] * 2, rel=5e-4)
-    assert sum(mode.mass for mode in natural_modes(0.0))[:2] == pytest.approx([mass, mass], rel=1e-3)  # of all modes: the whole mass
+    assert sum(mode.mass for mode in natural_modes(0.0))[:2] == pytest.approx(
+        [mass, mass], rel=1e-3
+    )  # of all modes: the whole mass
 
 
 def test_free_motions_are_no_modes():
@@ -123,13 +125,17 @@ def test_shear_is_the_force_of_the_columns():
     motion = GroundMotion(0.01, np.tile([1.5, -0.7, 0.3], (100, 1)))
     monitor = yw.StructureMonitor(bodies=[*columns, slab], parts=[1] * 4 + [2], interval=0.0)
     O.engines, O.dt = yt.engines(ground_motion=motion, monitor=monitor), 1e-4
-    joints = [(yt.connect(a, b, corners(O.bodies[c].state.pos[0], O.bodies[c].state.pos[1], z), (0, 0, 1)), a == base) for c in columns for a, b, z in ((base, c, 0), (c, slab, 1.0))]
+    joints = [(yt.connect(a, b, corners(O.bodies[c].state.pos[0], O.bodies[c].state.pos[1], z), (0, 0, 1)), a == base)
+              for c in columns
+              for a, b, z in ((base, c, 0), (c, slab, 1.0))]
     forces = []
     for _ in range(400):
         O.step()
         forces.append([cut_force(base, columns, slab, joints, at_base) for at_base in (True, False)])
     masses = [0, sum(O.bodies[c].state.mass for c in columns), O.bodies[slab].state.mass]
-    table = storeys(np.insert(np.reshape(monitor.rows, (-1, 10)), 0, 0, axis=0)[1:], masses, Motion(0.01, 0.0, np.array(motion.acceleration), np.zeros((100, 3))))
+    table = storeys(
+        np.insert(np.reshape(monitor.rows, (-1, 10)), 0, 0, axis=0)[1:], masses,
+        Motion(0.01, 0.0, np.array(motion.acceleration), np.zeros((100, 3))))
     for k, names in enumerate((("base_shear_ew", "base_shear_ns"), ("shear_ew1", "shear_ns1"))):
         found = -np.array([table.column(name) for name in names]).T
         scale = np.abs(found).max()
@@ -142,7 +148,8 @@ def cut_force(base, columns, slab, joints, at_base):
     for column in columns:
         for point in yt.contacts(base, column) if at_base else yt.contacts(column, slab):
             total += point["normal_force"] * np.array(point["normal"]) + np.array(point["shear_force"])
-    total -= sum(np.array(f) for joint, foot in joints if foot == at_base for f in joint.forces)  # forces on body 1, below
+    total -= sum(np.array(f) for joint, foot in joints if foot == at_base
+                 for f in joint.forces)  # forces on body 1, below
     return total[:2]
 
 
@@ -184,5 +191,6 @@ def test_joint_peaks_are_kept():
         state.pos = type(state.pos)(shift[0], shift[1], 1.5 + shift[2])
         yt.set_velocity(O.bodies[1], (0, 0, 0))
         O.step()
-    assert [monitor.pull[0], monitor.shear[0], monitor.opening[0]] == pytest.approx([4 * KN * 0.01, 4 * KS * 0.02, 0.01], rel=1e-3)
+    assert [monitor.pull[0], monitor.shear[0], monitor.opening[0]] == pytest.approx(
+        [4 * KN * 0.01, 4 * KS * 0.02, 0.01], rel=1e-3)
     assert monitor.load[0] == pytest.approx(np.hypot(KS * 0.02, KN * 0.005) / 1e4, rel=1e-3)

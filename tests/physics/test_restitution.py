@@ -70,7 +70,10 @@ def bounce(extents, orientation, speed, phase, step=STEP):
 def test_never_faster_than_one_point(shape):
     results = np.array([bounce(*SHAPES[shape], speed, phase) for speed in SPEEDS for phase in PHASES])
     restitution, energy, least, unconverged = results.T
-    print(f"\n{shape}: restitution {restitution.min():.3f} to {restitution.max():.3f}, sweeps without convergence {unconverged.sum():.0f}")
+    print(
+        f"\n{shape}: restitution {restitution.min():.3f} to {restitution.max():.3f}, sweeps without convergence "
+        f"{unconverged.sum():.0f}"
+    )
     assert restitution.max() <= POINT + SOFTNESS
     assert restitution.min() >= -1e-3  # it leaves, or stays
     assert energy.max() <= (POINT + SOFTNESS) ** 2 * 1.01  # rotations included; of rounding of the shapes
@@ -80,7 +83,8 @@ def test_never_faster_than_one_point(shape):
 
 def test_one_point_has_the_exact_restitution():
     restitution = [bounce(*SHAPES["cube on a corner"], speed, phase)[0] for speed in SPEEDS for phase in PHASES]
-    assert restitution == pytest.approx([POINT] * len(restitution), abs=2e-3)  # of the closed form's digits and the rounding of the corner
+    assert restitution == pytest.approx([POINT] * len(restitution),
+                                        abs=2e-3)  # of the closed form's digits and the rounding of the corner
 
 
 @pytest.mark.parametrize("size", [0.005, 0.02, 0.1])

@@ -30,6 +30,7 @@ def test_house_settles_under_its_weight_and_snow(house):
     scenario.build(scenario.Scenario("settling", house, snow_depth=1.0))
     O.run(round(SETTLING / O.dt), True)
     assert engines.find_engine(yt.JointEngine).breaks == []
-    assert yt.energy()["kinetic"] < 0.01  # [J] of 110 J released: oscillation of the braces in their undamped joints; observed 5e-4
+    assert yt.energy(
+    )["kinetic"] < 0.01  # [J] of 110 J released: oscillation of the braces in their undamped joints; observed 5e-4
     weight = sum(9.81 * b.state.mass for b in O.bodies if b.dynamic)
     assert_close(load_on_fixed_bodies(), weight, rtol=1e-3)  # the same oscillation; observed 5e-5

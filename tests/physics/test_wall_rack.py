@@ -40,7 +40,8 @@ def test_mean_level_beside_the_boards(tmp_path, wall):
     assert envelope(design.test(drifts=(), step=1e-3))[:, 1].max() < 0.6e3 * wall.mean("largest")
     rack = Rack(tmp_path, f"{{multiplier: {wall.mean('multiplier'):.4f}}}", length=wall.length)
     found = evaluate(envelope(rack.test(drifts=(1 / 120, 1 / 50, 1 / 20), step=5e-4)))
-    for name, load in (("code", found.code_load), ("yielding", found.yield_load), ("ultimate", found.ultimate_load), ("largest", found.largest_load)):
+    for name, load in (("code", found.code_load), ("yielding", found.yield_load), ("ultimate", found.ultimate_load),
+                       ("largest", found.largest_load)):
         low, high = wall.spread(name)
         assert low <= load / 1e3 <= high or load == pytest.approx(1e3 * wall.mean(name), rel=0.15), name
 

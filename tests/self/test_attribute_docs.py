@@ -19,11 +19,17 @@ def own_doc(doc):
 
 def undocumented(cls):
     """Names of a class's own data attributes whose doc has no unit at its end."""
-    described = {name: item for name, item in vars(cls).items() if ":yattrtype:" in (getattr(item, "__doc__", None) or "")}
+    described = {
+        name: item
+        for name, item in vars(cls).items()
+        if ":yattrtype:" in (getattr(item, "__doc__", None) or "")
+    }
     return [name for name, item in described.items() if not UNIT_AT_END.search(own_doc(item.__doc__))]
 
 
-@pytest.mark.parametrize("doc", ["Width. [m]", "Ratio. [-] (paper, Eq. 36)", "Load. [kN/m²] (Table 1).", "|ystatic| Size. [m] :ydefault:`1`"])
+@pytest.mark.parametrize(
+    "doc",
+    ["Width. [m]", "Ratio. [-] (paper, Eq. 36)", "Load. [kN/m²] (Table 1).", "|ystatic| Size. [m] :ydefault:`1`"])
 def test_accepts(doc):
     assert UNIT_AT_END.search(own_doc(doc))
 

@@ -21,7 +21,9 @@ def check(root):
     return subprocess.run([root / "scripts" / "format", "--check"], capture_output=True, text=True)
 
 
-needs_clang_format = pytest.mark.skipif(f"version {VERSION}." not in clang_format(), reason=f"clang-format {VERSION} is not installed; its other versions format differently")
+needs_clang_format = pytest.mark.skipif(
+    f"version {VERSION}." not in clang_format(),
+    reason=f"clang-format {VERSION} is not installed; its other versions format differently")
 
 
 @needs_clang_format

@@ -50,7 +50,10 @@ def test_law(patched):
     """
     (patched / "check.cpp").write_text(CHECK)
     subprocess.run(["c++", "-std=c++17", "-Ipkg", "check.cpp", "-o", "check"], cwd=patched, check=True)
-    rows = [list(map(float, line.split())) for line in subprocess.run([patched / "check"], capture_output=True, text=True).stdout.splitlines()]
+    rows = [
+        list(map(float, line.split()))
+        for line in subprocess.run([patched / "check"], capture_output=True, text=True).stdout.splitlines()
+    ]
     assert len(rows) == 5
     for n, force, energy, inverse in rows:
         assert force == pytest.approx(1e6 * n * (1 + n / 0.01), rel=1e-14)

@@ -60,14 +60,21 @@ def imported(text, module, room="yade_timber"):
             names = [start + alias.name.split(".") for alias in node.names]
         else:
             continue
-        names_of_parts |= {name[depth] if name[:depth] == room.split(".") and len(name) > depth else name[0] for name in names}
+        names_of_parts |= {
+            name[depth] if name[:depth] == room.split(".") and len(name) > depth else name[0]
+            for name in names
+        }
     return names_of_parts
 
 
 def offences(package, forbidden=FORBIDDEN, room="yade_timber"):
     """['module imports part', ...] of the modules in the parts of a room. package: the folder of yade_timber."""
     inside = Path(*room.split(".")[1:])
-    paths = [path for part in forbidden for path in (package / inside / f"{part}.py", *sorted((package / inside / part).rglob("*.py"))) if path.is_file()]
+    paths = [
+        path for part in forbidden
+        for path in (package / inside / f"{part}.py", *sorted((package / inside / part).rglob("*.py")))
+        if path.is_file()
+    ]
     return [
         f"{path.relative_to(package).as_posix()} imports {name}"
         for path in paths
@@ -88,7 +95,11 @@ def test_every_room_is_there():
 
 def test_rooms_inside_study():
     assert offences(PACKAGE, FORBIDDEN_IN_STUDY, "yade_timber.study") == []
-    assert {path.stem for path in (PACKAGE / "study").iterdir() if path.suffix == ".py" or (path / "__init__.py").exists()} == {*STUDY, "__init__"}
+    assert {
+        path.stem
+        for path in (PACKAGE / "study").iterdir()
+        if path.suffix == ".py" or (path / "__init__.py").exists()
+    } == {*STUDY, "__init__"}
 
 
 @pytest.mark.parametrize("line, part", [
@@ -101,7 +112,8 @@ def test_rooms_inside_study():
 def test_an_offence_inside_study_is_found(tmp_path, line, part):
     (tmp_path / "study" / "ensemble").mkdir(parents=True)
     (tmp_path / "study" / "ensemble" / "runs.py").write_text(line + "\n")
-    assert offences(tmp_path, FORBIDDEN_IN_STUDY, "yade_timber.study") == ([f"study/ensemble/runs.py imports {part}"] if part else [])
+    assert offences(tmp_path, FORBIDDEN_IN_STUDY,
+                    "yade_timber.study") == ([f"study/ensemble/runs.py imports {part}"] if part else [])
 
 
 def importers_of_research(root):
@@ -115,7 +127,10 @@ def test_research_imports_the_package_and_never_the_reverse():
     assert all((ROOT / "research" / RESEARCH / name).is_file() for name in ("claims.py", "screening/cells.py"))
 
 
-@pytest.mark.parametrize("line", ["import timber_research", "from timber_research.claims import STILL", "def f():\n    from timber_research import design"])
+@pytest.mark.parametrize("line", [
+    "import timber_research", "from timber_research.claims import STILL",
+    "def f():\n    from timber_research import design"
+])
 def test_an_import_of_research_is_found(tmp_path, line):
     (tmp_path / "scripts").mkdir()
     (tmp_path / "scripts" / "study.py").write_text(line + "\n")
@@ -144,5 +159,6 @@ def test_an_offence_is_found(tmp_path, line, room):
 
 def test_imports_within_the_flow_are_allowed(tmp_path):
     (tmp_path / "pictures").mkdir()
-    (tmp_path / "pictures" / "module.py").write_text("from ..recording import frames\nfrom . import views\nfrom ..base.colors import KINDS\nimport numpy\n")
+    (tmp_path / "pictures" / "module.py").write_text(
+        "from ..recording import frames\nfrom . import views\nfrom ..base.colors import KINDS\nimport numpy\n")
     assert offences(tmp_path) == []

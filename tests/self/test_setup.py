@@ -60,7 +60,8 @@ def machine(tmp_path):
         (stubs / name).write_text(f'#!/bin/bash\necho "{name} $*" >>"$LOG"\n{body}\n')
         (stubs / name).chmod(0o755)
     archive = tmp_path / "archive"
-    checksum = make_archive(archive, ["RELEASE", "LICENSE", "core/Scene.hpp", "lib/factory/ClassFactory.hpp", "pkg/a.hpp", "doc/b"])
+    checksum = make_archive(
+        archive, ["RELEASE", "LICENSE", "core/Scene.hpp", "lib/factory/ClassFactory.hpp", "pkg/a.hpp", "doc/b"])
     defaults = {
         "PATH": f"{stubs}:{os.environ['PATH']}",
         "LOG": str(tmp_path / "log"),
@@ -75,9 +76,8 @@ def machine(tmp_path):
     def run(*arguments, **variables):
         (tmp_path / "log").write_text("")
         environment = {**defaults, **variables}
-        process = subprocess.run(
-            ["scripts/setup", *arguments], cwd=tmp_path, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True
-        )
+        process = subprocess.run(["scripts/setup", *arguments], cwd=tmp_path, env=environment, stdin=subprocess.DEVNULL,
+                                 capture_output=True, text=True)
         return process, (tmp_path / "log").read_text().splitlines()
 
     return run
@@ -115,13 +115,15 @@ def test_second_call_leaves_apt_alone(machine):
 def test_missing_packages_are_installed_lean(machine):
     process, calls = machine("--with-tests", MISSING="ninja-build libgtest-dev libboost-log1.74-dev")
     assert process.returncode == 0
-    assert [call.split("--no-install-recommends ")[1] for call in installs(calls)] == ["ninja-build libgtest-dev", "libboost-log1.74-dev"]
+    assert [call.split("--no-install-recommends ")[1]
+            for call in installs(calls)] == ["ninja-build libgtest-dev", "libboost-log1.74-dev"]
     assert any("-DTIMBER_TESTS=ON" in call for call in calls)
 
 
 def test_own_tree(machine, tmp_path):
     machine()
-    process, calls = machine(YADE_SOURCE_DIR=str(tmp_path / "build" / "yade-source" / "2025.2.0"), YADE_VERSION="2099.1")
+    process, calls = machine(YADE_SOURCE_DIR=str(tmp_path / "build" / "yade-source" / "2025.2.0"),
+                             YADE_VERSION="2099.1")
     assert process.returncode == 0
     assert [call for call in calls if call.startswith("apt-")] == []
 

@@ -18,7 +18,8 @@ ADDRESS = re.compile(r"\b(?:https?|ftp)://")
 def sources():
     for folder, below, names in os.walk(ROOT):
         below[:] = sorted(set(below) - SKIPPED_FOLDERS)  # not entered: roots of other systems lie in build
-        yield from (path for path in (Path(folder) / name for name in sorted(names)) if path.is_file() and path.suffix in SOURCE_ENDINGS)
+        yield from (path for path in (Path(folder) / name for name in sorted(names))
+                    if path.is_file() and path.suffix in SOURCE_ENDINGS)
 
 
 def hits(pattern, files):
@@ -29,7 +30,10 @@ def hits(pattern, files):
             lines = path.read_text(encoding="utf-8").splitlines()
         except UnicodeDecodeError:
             continue
-        found += [f"{path.relative_to(ROOT)}:{number}: {line.strip()[:120]}" for number, line in enumerate(lines, 1) if pattern.search(line)]
+        found += [
+            f"{path.relative_to(ROOT)}:{number}: {line.strip()[:120]}" for number, line in enumerate(lines, 1)
+            if pattern.search(line)
+        ]
     return found
 
 
@@ -38,7 +42,8 @@ def test_pattern_sees_a_machine_path(text):
     assert MACHINE_PATH.search(text)
 
 
-@pytest.mark.parametrize("text", ["build/tmp/x", "$HOME/work/x", "${dir}/tmp/x", "/usr/bin/python3", "pairs/work/step", "and/or"])
+@pytest.mark.parametrize(
+    "text", ["build/tmp/x", "$HOME/work/x", "${dir}/tmp/x", "/usr/bin/python3", "pairs/work/step", "and/or"])
 def test_pattern_passes_other_paths(text):
     assert not MACHINE_PATH.search(text)
 
@@ -57,6 +62,12 @@ def test_no_address_in_the_build():
 
 
 def test_licence_line():
-    code = [path for path in sources() if path.suffix in {".py", ".cpp", ".hpp", ".cmake"} or path.name == "CMakeLists.txt"]
-    missing = [str(path.relative_to(ROOT)) for path in code if "SPDX-License-Identifier: GPL-2.0-or-later" not in path.read_text(encoding="utf-8")[:300]]
+    code = [
+        path for path in sources() if path.suffix in {".py", ".cpp", ".hpp", ".cmake"} or path.name == "CMakeLists.txt"
+    ]
+    missing = [
+        str(path.relative_to(ROOT))
+        for path in code
+        if "SPDX-License-Identifier: GPL-2.0-or-later" not in path.read_text(encoding="utf-8")[:300]
+    ]
     assert missing == []

@@ -138,13 +138,14 @@ class Outcome:
         shares = " ".join(f"{value:9.1e}" for value in (self.change, self.created, self.negative, self.residual))
         counts = f"{self.input / 1e3:9.2f} {self.sweeps:7.1f} {self.unconverged:8}"
         extremes = f"{self.spin:8.0f} {self.speed:6.1f} {self.wall:6.0f}"
-        return f"{self.name:28} {counts} {shares} {extremes}  {fault}{f' ({self.term})' if self.negative > NEGATIVE else ''}"
+        term = f" ({self.term})" if self.negative > NEGATIVE else ""
+        return f"{self.name:28} {counts} {shares} {extremes}  {fault}{term}"
 
 
 HEADER = (
-    f"{'case':28} {'input/kJ':>9} {'sweeps':>7} {'unconv.':>8} {'change':>9} {'created':>9} {'negative':>9} {'residual':>9} "
-    f"{'rad/s':>8} {'m/s':>6} {'wall/s':>6}"
-)
+    f"{'case':28} {'input/kJ':>9} {'sweeps':>7} {'unconv.':>8} {'change':>9} {'created':>9} {'negative':>9} "
+    f"{'residual':>9} "
+    f"{'rad/s':>8} {'m/s':>6} {'wall/s':>6}")
 
 
 class Watch:

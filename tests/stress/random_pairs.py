@@ -58,9 +58,10 @@ def rotation(random):
 def corners(random, size):
     """Corners (n, 3) of a random body about the origin, and its kind; size: longest semi-axis [m]."""
     kind = random.choice(["lump", "box", "plate", "needle", "sliver"])
-    axes = {"plate": [1, random.uniform(0.3, 1), 1e-2], "needle": [1, 1e-2, 1e-2], "sliver": [1, 10 ** random.uniform(-2, 0), 1e-3]}.get(
-        kind, 10.0 ** random.uniform([0, -1, -1], 0)
-    )
+    axes = {
+        "plate": [1, random.uniform(0.3, 1), 1e-2], "needle": [1, 1e-2, 1e-2],
+        "sliver": [1, 10**random.uniform(-2, 0), 1e-3]
+    }.get(kind, 10.0**random.uniform([0, -1, -1], 0))
     count = 4 if kind == "sliver" else random.integers(4, 13)
     on_box = kind == "box" or (kind in ("plate", "needle") and random.random() < 0.5)
     signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
@@ -136,7 +137,8 @@ def make_pair(random, overlap):
     spin = np.zeros((2, 3))
     spin[light] = direction(random) * speed * random.uniform(0, 1) / reach_of(bodies[light])
     largest_overlap, stiffness = impact_scale(bodies, speed, snow)
-    dt = min(STEP_SHARE / np.sqrt(stiffness * mobility(bodies, largest_overlap)), TRAVEL_SHARE * radii / (3 * speed), ROTATION / max(np.linalg.norm(spin[light]), 1e-9))
+    dt = min(STEP_SHARE / np.sqrt(stiffness * mobility(bodies, largest_overlap)), TRAVEL_SHARE * radii / (3 * speed),
+             ROTATION / max(np.linalg.norm(spin[light]), 1e-9))
     gap = -overlap * largest_overlap if overlap else 3 * speed * dt
     for body, position in zip(bodies, (-point1, gap * outward1 - rotation_2 @ point2)):
         body.state.pos = body.state.refPos = Vector3(*position)
@@ -152,7 +154,10 @@ def with_masses(random, first, second, snow, fixed):
     density = 340 * np.array([1, ratio * bodies[0].state.mass / bodies[1].state.mass])
     density *= 340 / density.min()  # no body is lighter than timber
     materials = [yt.timber(density=density[0]), yt.snow(density=density[1]) if snow else yt.timber(density=density[1])]
-    return [yt.polyhedron(points, material, fixed=fixed and k == 0) for k, (points, material) in enumerate(zip((first, second), materials))]
+    return [
+        yt.polyhedron(points, material, fixed=fixed and k == 0)
+        for k, (points, material) in enumerate(zip((first, second), materials))
+    ]
 
 
 def reach_of(body):
@@ -238,14 +243,16 @@ def point_energy(phys, point, force):
     else:
         share, power, overlap = 0.4, 1.5, (normal / (4 / 3 * phys.modulus * np.sqrt(phys.radius))) ** (2 / 3)
     beyond = max(0.0, point[2] - overlap) if overlap > phys.overlapLimit * (1 - 1e-9) else 0.0
-    return share * normal * overlap + normal * beyond + shear.squaredNorm() * overlap / (2 * phys.shearRatio * power * normal)
+    return share * normal * overlap + normal * beyond + shear.squaredNorm(
+    ) * overlap / (2 * phys.shearRatio * power * normal)
 
 
 def momenta(bodies):
     """Linear momentum, and angular momentum about the first body's reference position (2, 3) [kg m/s, kg m2/s]."""
     about = bodies[0].state.refPos
     linear = sum((b.state.mass * b.state.vel for b in bodies), Vector3.Zero)
-    angular = sum((b.state.mass * (b.state.pos - about - O.dt / 2 * b.state.vel).cross(b.state.vel) + b.state.angMom for b in bodies), Vector3.Zero)
+    angular = sum((b.state.mass * (b.state.pos - about - O.dt / 2 * b.state.vel).cross(b.state.vel) + b.state.angMom
+                   for b in bodies), Vector3.Zero)
     return np.array([linear, angular])
 
 

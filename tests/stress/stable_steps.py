@@ -51,7 +51,8 @@ def stiff_house(dt):
     house(dt)
     for joint in engines.find_engine(yw.JointEngine).joints:
         if joint.kind in ("column_beam", "brace_beam"):
-            joint.kn, joint.ks, joint.strength = (JOINT_FACTOR * value for value in (joint.kn, joint.ks, joint.strength))
+            joint.kn, joint.ks, joint.strength = (JOINT_FACTOR * value
+                                                  for value in (joint.kn, joint.ks, joint.strength))
 
 
 def settled(build):

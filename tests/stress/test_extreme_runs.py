@@ -13,7 +13,8 @@ from yade_timber.base.time_step import MAX_DT
 from yade_timber.scene import engines
 
 
-@pytest.mark.parametrize("build", [stable_steps.suspended_block, stable_steps.stack, stable_steps.house, stable_steps.stiff_house])
+@pytest.mark.parametrize(
+    "build", [stable_steps.suspended_block, stable_steps.stack, stable_steps.house, stable_steps.stiff_house])
 def test_stable_below_the_predicted_limit(build):
     """Half and nine tenths of the predicted time step are stable, with and without dashpots."""
     for share in (0.5, 0.9):
@@ -21,7 +22,9 @@ def test_stable_below_the_predicted_limit(build):
             assert stable_steps.is_stable(build, share * stable_steps.settled(build), damped), (share, damped)
 
 
-@pytest.mark.parametrize("build, share, damped", [(stable_steps.suspended_block, 1.1, False), (stable_steps.stack, 1.1, False), (stable_steps.stack, 6, True), (stable_steps.house, 16, True), (stable_steps.stiff_house, 8, True)])
+@pytest.mark.parametrize("build, share, damped", [(stable_steps.suspended_block, 1.1, False),
+                                                  (stable_steps.stack, 1.1, False), (stable_steps.stack, 6, True),
+                                                  (stable_steps.house, 16, True), (stable_steps.stiff_house, 8, True)])
 def test_unstable_above_the_predicted_limit(build, share, damped):
     """Slightly above the limit of explicit springs. Implicit contacts and joints are stable above it: suspended_block
     at 20 times the prediction, house at 8, stack at 4, stiff_house at 5."""

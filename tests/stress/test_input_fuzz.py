@@ -19,7 +19,8 @@ EXAMPLES = int(os.environ.get("YADE_TIMBER_FUZZ", 10_000))
 many = settings(max_examples=EXAMPLES, deadline=None, database=None, suppress_health_check=list(HealthCheck))
 
 
-@pytest.mark.parametrize("examples, use", [(house_files, use_house), (record_files, use_record), (motion_options, use_options)], ids=["houses", "records", "options"])
+@pytest.mark.parametrize("examples, use", [(house_files, use_house), (record_files, use_record),
+                                           (motion_options, use_options)], ids=["houses", "records", "options"])
 def test_many(tmp_path, capsys, examples, use):
     counts, longest = Counter(), 0.0
 

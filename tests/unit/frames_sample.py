@@ -31,8 +31,9 @@ def elements():
     kinds, extents, centres = zip(*PARTS.values())
     count = len(PARTS)
     fixed = np.array([kind in ("ground", "foundation") for kind in kinds])
-    return frames.Elements(list(PARTS), list(kinds), ["main"] * count, ["timber"] * count, np.ones(count, int), fixed, np.array(centres) + ORIGIN,
-                           np.tile([1.0, 0, 0, 0], (count, 1)), [box(e) for e in extents], [FACES] * count)
+    return frames.Elements(list(PARTS), list(kinds), ["main"] * count, ["timber"] * count, np.ones(count, int), fixed,
+                           np.array(centres) + ORIGIN, np.tile([1.0, 0, 0, 0], (count, 1)), [box(e) for e in extents],
+                           [FACES] * count)
 
 
 def joints():
@@ -41,8 +42,9 @@ def joints():
     ends = [-1.35] * 4 + [1.35] * 4
     count = len(columns)
     damaged = np.arange(count) == 0
-    return frames.Joints([f"joint{k}" for k in range(count)], ["column_beam"] * count, ["1"] * count, ["south"] * count, np.array(columns),
-                         np.array([1] * 4 + [6] * 4), np.array([[0, 0, z] for z in ends]), np.full(count, 4), damaged, np.full(count, 5880.0))
+    return frames.Joints([f"joint{k}" for k in range(count)], ["column_beam"] * count, ["1"] * count, ["south"] * count,
+                         np.array(columns), np.array([1] * 4 + [6] * 4), np.array([[0, 0, z] for z in ends]),
+                         np.full(count, 4), damaged, np.full(count, 5880.0))
 
 
 def placements(time, start):
@@ -63,21 +65,28 @@ def history():
     """History of one storey."""
     time = np.arange(0, DURATION + 0.005, 0.01)
     drift = 0.02 * np.sin(2 * np.pi * time) + 1.3 * np.clip(time - FALL, 0, 1) ** 2
-    return History(["time [s]", "drift_ns1 [-]", "drift_ew1 [-]", "broken_joints [-]"], np.column_stack([time, drift, 0.3 * drift, 0 * time]))
+    return History(["time [s]", "drift_ns1 [-]", "drift_ew1 [-]", "broken_joints [-]"],
+                   np.column_stack([time, drift, 0.3 * drift, 0 * time]))
 
 
 def motion():
     """One second at rest, then a sine E-W of 1 Hz and 20 cm."""
     time = np.arange(0, DURATION + 0.005, 0.01)
     east = 0.2 * np.sin(2 * np.pi * time) * (time > 1)
-    return frames.Motion(0.01, 0.0, np.column_stack([-4 * np.pi**2 * east, 0 * east, 0 * east]), np.column_stack([east, 0 * east, 0 * east]))
+    return frames.Motion(0.01, 0.0, np.column_stack([-4 * np.pi**2 * east, 0 * east, 0 * east]),
+                         np.column_stack([east, 0 * east, 0 * east]))
 
 
 def summary(name):
-    events = [Event(2.1, FirstBreak("column_beam", "1", "south", "tension", 5900.0)), Event(2.3, Tilt("ns")), Event(2.9, Collapse())]
-    return sample_summary(
-        model=name, earthquake=True, events=events, broken={"total": 7, "damaged_at_start": {"total": 1}}, joints={"total": 8}, tilt_time_s=2.3,
-        tilt_direction="ns", collapsed=True, collapse_time_s=2.9, peak_drift={"storey1": {"ns": 1.3, "ew": 0.39}})
+    events = [
+        Event(2.1, FirstBreak("column_beam", "1", "south", "tension", 5900.0)),
+        Event(2.3, Tilt("ns")),
+        Event(2.9, Collapse())
+    ]
+    return sample_summary(model=name, earthquake=True, events=events, broken={
+        "total": 7, "damaged_at_start": {"total": 1}
+    }, joints={"total": 8}, tilt_time_s=2.3, tilt_direction="ns", collapsed=True, collapse_time_s=2.9,
+                          peak_drift={"storey1": {"ns": 1.3, "ew": 0.39}})
 
 
 def run(name="A", until=DURATION):
@@ -86,8 +95,10 @@ def run(name="A", until=DURATION):
     position, orientation = zip(*(placements(t, start) for t in times))
     broken = np.array([[4 if k == 0 else int(np.clip(20 * (t - FALL) - k, 0, 4)) for k in range(8)] for t in times])
     breaks = {"time": [FALL + 0.1], "joint": [1], "spring": [0], "cause": ["tension"], "force": [5900.0]}
-    return frames.Frames(f"House {name}: earthquake", f"model{name}_quake", name, "0", start, joints(), times, np.array(position), np.array(orientation),
-                         np.clip(times / 3, 0, 1)[:, None] * np.ones(8), broken, motion=motion(), summary=summary(name), history=history(), breaks=breaks)
+    return frames.Frames(f"House {name}: earthquake", f"model{name}_quake", name, "0", start, joints(), times,
+                         np.array(position), np.array(orientation),
+                         np.clip(times / 3, 0, 1)[:, None] * np.ones(8), broken, motion=motion(), summary=summary(name),
+                         history=history(), breaks=breaks)
 
 
 def write(path, **options):

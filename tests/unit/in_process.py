@@ -16,8 +16,8 @@ def run(script, *arguments):
     """CompletedProcess of a script, which finds no other program."""
     argv, out, err, code = [str(script), *map(str, arguments)], io.StringIO(), io.StringIO(), None
     path = [str(script.parent), *sys.path]
-    with (mock.patch.multiple(sys, argv=argv, path=path), mock.patch.dict("os.environ", PATH=""), warnings.catch_warnings(),
-          redirect_stdout(out), redirect_stderr(err)):
+    with (mock.patch.multiple(sys, argv=argv, path=path), mock.patch.dict(
+            "os.environ", PATH=""), warnings.catch_warnings(), redirect_stdout(out), redirect_stderr(err)):
         for kind in SHOWN:
             warnings.simplefilter("error", kind)
         try:

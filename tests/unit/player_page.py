@@ -12,7 +12,9 @@ ROOF_IS_DARK = 0.5
 
 
 def load(driver, address, size=WIDE, motion=True, phone=False):
-    driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-reduced-motion", "value": "no-preference" if motion else "reduce"}]})
+    driver.execute_cdp_cmd(
+        "Emulation.setEmulatedMedia",
+        {"features": [{"name": "prefers-reduced-motion", "value": "no-preference" if motion else "reduce"}]})
     resize(driver, *size, phone)
     driver.get("about:blank")
     driver.get(address)

@@ -40,8 +40,11 @@ def test_runs_one_after_the_other_have_folders_of_their_own():
 
 def test_the_script_gives_the_same_result():
     """Bit for bit, also after another run in the session, and with the motion as an object."""
-    options = ["--quake", "--scale", "2", "--duration", "0.3", "--dt", "2e-4", "--quiet", "--no-frames", "--out", "script"]
-    subprocess.run(["yade", "-n", "-x", HOUSE_SCRIPT, "A", *options], check=True, capture_output=True, stdin=subprocess.DEVNULL)
+    options = [
+        "--quake", "--scale", "2", "--duration", "0.3", "--dt", "2e-4", "--quiet", "--no-frames", "--out", "script"
+    ]
+    subprocess.run(["yade", "-n", "-x", HOUSE_SCRIPT, "A", *options], check=True, capture_output=True,
+                   stdin=subprocess.DEVNULL)
     yt.run("B", **{**SHORT, "duration": 0.01})
     for motion in ("shipped", yt.motion("shipped")):
         run = yt.run("A", motion=motion, scale=2, **SHORT)
@@ -70,7 +73,8 @@ def test_numbers_of_a_run():
         (TypeError, "give motion='shipped'", {"quake": True}),
         (ValueError, "no such file", {"motion": "nowhere"}),
         (ValueError, "did you mean 'shipped'?", {"motion": "shiped"}),
-        (ValueError, "seed: a GroundMotion is given; leave one of them out", {"motion": GroundMotion(0.01, np.ones((100, 3))), "seed": 3}),
+        (ValueError, "seed: a GroundMotion is given; leave one of them out",
+         {"motion": GroundMotion(0.01, np.ones((100, 3))), "seed": 3}),
     ],
 )
 def test_wrong_options_are_refused_in_a_line(error, words, options):
@@ -94,7 +98,8 @@ def test_interrupted_run_continues(monkeypatch):
     assert signal.getsignal(signal.SIGINT) is before
     reached = O.time
     assert reached == pytest.approx(0.05)  # one frame
-    assert yt.run("A", **{**options, "duration": reached + 0.1, "resume": True}).summary.duration_s == pytest.approx(reached + 0.1, abs=2e-4)
+    assert yt.run("A", **{**options, "duration": reached + 0.1, "resume": True}).summary.duration_s == pytest.approx(
+        reached + 0.1, abs=2e-4)
 
 
 def test_player_and_pictures():
@@ -108,7 +113,8 @@ def test_player_and_pictures():
 
 def test_names_outside_yade():
     """A plain Python has houses, motions and finished runs, and says what it lacks."""
-    code = "import yade_timber as yt\nfor name in ('box', 'nothing'):\n    try:\n        getattr(yt, name)\n    except AttributeError as problem:\n        print(problem)\nyt.run('A')"
+    code = ("import yade_timber as yt\nfor name in ('box', 'nothing'):\n    try:\n        getattr(yt, name)\n"
+            "    except AttributeError as problem:\n        print(problem)\nyt.run('A')")
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert "yade_timber.box needs YADE" in done.stdout and "no attribute 'nothing'" in done.stdout
     assert done.stderr.splitlines()[-1].endswith("or call it in a YADE session") and done.returncode == 1

@@ -38,7 +38,9 @@ def test_variant_of_a_house(tmp_path):
     house = yt.house("B")
     more = house.variant(tmp_path / "more.yaml", braces=house.free_bays[:2], strength=1.5)
     assert more.name == "more" and more.counts()["braces"] == house.counts()["braces"] + 2
-    strongest = [max(joint.strength for joint in h.model().joints if joint.kind == "column_beam") for h in (house, more)]
+    strongest = [
+        max(joint.strength for joint in h.model().joints if joint.kind == "column_beam") for h in (house, more)
+    ]
     assert strongest[1] == 1.5 * strongest[0]
 
 
@@ -59,7 +61,8 @@ def test_motions():
     motion = yt.motion("shipped", scale=0.5)
     assert motion.pga_gal["ns"] == pytest.approx(0.5 * yt.motion().pga_gal["ns"])
     assert yt.motion(motion, azimuth=90).pga_gal["ew"] == pytest.approx(motion.pga_gal["ns"])
-    assert yt.motion(motion, pga=300).pga_gal["ew"] == pytest.approx(300)  # the smaller of the horizontal peaks is 300 gal at level
+    assert yt.motion(motion, pga=300).pga_gal["ew"] == pytest.approx(
+        300)  # the smaller of the horizontal peaks is 300 gal at level
 
 
 @pytest.mark.parametrize(
@@ -96,7 +99,8 @@ def test_damaged_summary(tmp_path):
 def test_representations_are_short():
     model = build_house(load_house("C2"))
     frames = frames_sample.run()
-    shown = (yt.house("C2"), yt.motion(), load_house("C2"), model, model.elements[0], model.joints[0], frames, frames.elements, frames.joints, frames.history)
+    shown = (yt.house("C2"), yt.motion(), load_house("C2"), model, model.elements[0], model.joints[0], frames,
+             frames.elements, frames.joints, frames.history)
     assert [type(value).__name__ for value in shown if len(repr(value)) > 300] == []
 
 

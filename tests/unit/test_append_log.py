@@ -113,7 +113,8 @@ def test_frames_of_an_unfinished_run(tmp_path):
     unfinished(tmp_path)
     made, read = frames(ended=False), files.load(tmp_path / files.NAME)
     for name in ("time", "position", "orientation", "load", "broken"):
-        assert np.array_equal(getattr(read, name), getattr(made, name)) and getattr(read, name).dtype == getattr(made, name).dtype, name
+        assert np.array_equal(getattr(read, name), getattr(made, name)) and getattr(read, name).dtype == getattr(
+            made, name).dtype, name
     for name, values in vars(made.contacts).items():
         assert all(map(np.array_equal, getattr(read.contacts, name), values)), name
     os.truncate(tmp_path / frame_log.NAME, (tmp_path / frame_log.NAME).stat().st_size // 2)

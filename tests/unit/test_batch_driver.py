@@ -61,7 +61,10 @@ def wait_for(folder, pattern, process, condition):
 
 
 def children(process):
-    return [int(pid) for pid in subprocess.run(["pgrep", "-P", str(process.pid)], capture_output=True, text=True).stdout.split()]
+    return [
+        int(pid)
+        for pid in subprocess.run(["pgrep", "-P", str(process.pid)], capture_output=True, text=True).stdout.split()
+    ]
 
 
 @pytest.mark.skipif(shutil.which("yade") is None, reason="yade is not installed")
@@ -71,7 +74,8 @@ def test_stopped_killed_resumed(folder):
     stopped.terminate()
     output, _ = stopped.communicate(timeout=120)
     assert stopped.returncode == 1 and "same command continues" in output
-    assert states(folder)["long"] == "unfinished" and not any(map(is_locked, (folder / "results" / "runs").glob("long-*")))
+    assert states(folder)["long"] == "unfinished"
+    assert not any(map(is_locked, (folder / "results" / "runs").glob("long-*")))
 
     killed = start(folder)
     long = wait_for(folder, "long-*", killed, is_locked)
@@ -121,12 +125,15 @@ def test_tables_are_checked_before_the_first_run(folder, table, place):
     (folder / "runs.txt").write_text(table) if table else (folder / "runs.txt").unlink()
     process = start(folder)
     output, _ = process.communicate(timeout=60)
-    assert process.returncode == 1 and output.startswith("error: ") and place in output and output.count("\n") == 1, output
+    assert process.returncode == 1 and output.startswith("error: ") and place in output and output.count(
+        "\n") == 1, output
     assert not list(folder.rglob("run.json"))
 
 
-@pytest.mark.parametrize("options", [("--jobs", "-3"), ("--jobs", "9" * 30), ("--out", ""), ("--out", "/proc/x"), ("--only", "none"), ("--frob",)])
+@pytest.mark.parametrize("options", [("--jobs", "-3"), ("--jobs", "9" * 30), ("--out", ""), ("--out", "/proc/x"),
+                                     ("--only", "none"), ("--frob", )])
 def test_options_are_refused_in_one_line(folder, options):
     process = start(folder, *options)
     output, _ = process.communicate(timeout=60)
-    assert process.returncode == 1 and output.startswith("error: ") and options[0] in output and output.count("\n") == 1, output
+    assert process.returncode == 1 and output.startswith("error: ") and options[0] in output and output.count(
+        "\n") == 1, output

@@ -17,21 +17,30 @@ from pathlib import Path
 import pytest
 
 WORKFLOW = Path(__file__).resolve().parents[2] / "workflow"
-TABLE = "house description set dt duration\nA good * 2e-4 0.004\nB wrong joint_types.corner_fitting.kn=1e12 2e-4 0.004\n"
+TABLE = """house description set dt duration
+A good * 2e-4 0.004
+B wrong joint_types.corner_fitting.kn=1e12 2e-4 0.004
+"""
 """The second run fails when its scene is built: its joints are too stiff for the time step."""
 DAEMONS = ("munged", "slurmctld", "slurmd")
 
 os.environ["PATH"] += ":/usr/sbin:/sbin"
 missing = [program for program in DAEMONS if shutil.which(program) is None]
-pytestmark = pytest.mark.skipif(shutil.which("snakemake") is None, reason="snakemake is not installed (scripts/setup --with-cluster)")
+pytestmark = pytest.mark.skipif(
+    shutil.which("snakemake") is None, reason="snakemake is not installed (scripts/setup --with-cluster)")
 
 
 def command(profile):
-    return ["snakemake", "--snakefile", str(WORKFLOW / "Snakefile"), "--profile", str(WORKFLOW / profile), "--config", "table=runs.txt"]
+    return [
+        "snakemake", "--snakefile",
+        str(WORKFLOW / "Snakefile"), "--profile",
+        str(WORKFLOW / profile), "--config", "table=runs.txt"
+    ]
 
 
 def snakemake(folder, profile, **environment):
-    done = subprocess.run(command(profile), cwd=folder, capture_output=True, text=True, timeout=170, env={**os.environ, **environment})
+    done = subprocess.run(command(profile), cwd=folder, capture_output=True, text=True, timeout=170,
+                          env={**os.environ, **environment})
     assert done.returncode == 0, done.stderr[-3000:]
     return done.stderr
 
@@ -63,7 +72,8 @@ def ends(folder):
 
 
 def kill_after_first(folder):
-    victim = subprocess.Popen(command("local"), cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+    victim = subprocess.Popen(command("local"), cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                              start_new_session=True)
     end = time.monotonic() + 120
     while not ends(folder) and victim.poll() is None and time.monotonic() < end:
         time.sleep(0.05)
@@ -127,12 +137,15 @@ def slurm(tmp_path_factory):
     user = subprocess.run(["id", "-un"], capture_output=True, text=True).stdout.strip()
     conf.write_text(slurm_conf(folder, user, socket.gethostname().split(".")[0]))
     munge = [f"--{option}={folder}/munge/{option}" for option in ("socket", "pid-file", "log-file", "seed-file")]
-    starts = [["munged", "--foreground", "--force", f"--key-file={key}", *munge], ["slurmctld", "-D", "-c", "-f", str(conf)], ["slurmd", "-D", "-f", str(conf)]]
+    starts = [["munged", "--foreground", "--force", f"--key-file={key}", *munge],
+              ["slurmctld", "-D", "-c", "-f", str(conf)], ["slurmd", "-D", "-f", str(conf)]]
     daemons = []
     try:
         for start in starts:
             log = open(folder / f"{start[0]}.log", "w")
-            daemons.append(subprocess.Popen(["setpriv", "--pdeathsig", "TERM", *start], stdin=subprocess.DEVNULL, stdout=log, stderr=log))
+            daemons.append(
+                subprocess.Popen(["setpriv", "--pdeathsig", "TERM", *start], stdin=subprocess.DEVNULL, stdout=log,
+                                 stderr=log))
         wait_for_node(conf, folder)
         yield conf
     finally:
@@ -150,7 +163,8 @@ def wait_for_node(conf, folder):
 
 
 def sinfo(conf):
-    return subprocess.run(["sinfo", "--noheader"], capture_output=True, text=True, env={**os.environ, "SLURM_CONF": str(conf)}).stdout
+    return subprocess.run(["sinfo", "--noheader"], capture_output=True, text=True,
+                          env={**os.environ, "SLURM_CONF": str(conf)}).stdout
 
 
 def test_tables_are_checked_before_the_first_run(tmp_path):
@@ -175,7 +189,8 @@ def test_job_states(slurm):
     states = {}
     for task in ("true", "false", "sleep 60"):
         job = run("sbatch", "--parsable", "--mem=10", "--output=/dev/null", f"--wrap={task}")
-        states[task] = wait_while(lambda: run(str(WORKFLOW / "slurm" / "status.sh"), job), "running", 30 if task != "sleep 60" else 0)
+        states[task] = wait_while(lambda: run(str(WORKFLOW / "slurm" / "status.sh"), job), "running",
+                                  30 if task != "sleep 60" else 0)
     run("scancel", job)
     assert states == {"true": "success", "false": "failed", "sleep 60": "running"}
     assert wait_while(lambda: run(str(WORKFLOW / "slurm" / "status.sh"), job), "running", 30) == "failed"

@@ -75,7 +75,8 @@ def test_names_follow_house_and_record(table, tmp_path):
     for folder in "abcd":
         (tmp_path / folder / "runs.txt").write_text("house record\nmine.yaml rec.csv\n")
         rows[folder] = read_table(tmp_path / folder / "runs.txt")[0]
-        assert rows[folder].house == str(tmp_path / folder / "mine.yaml") and rows[folder].record == str(tmp_path / folder / "rec.csv")
+        assert rows[folder].house == str(tmp_path / folder / "mine.yaml")
+        assert rows[folder].record == str(tmp_path / folder / "rec.csv")
     assert len({row.name for row in rows.values()}) == 3 and rows["a"].name == rows["d"].name
 
 
@@ -118,7 +119,8 @@ def test_comma_separated_values(table):
     """
     (first, second) = table('\ufeffhouse,description,scale,set,snow\nB,"calm, long",0.5,,\n=,strong,2,a=1;b=2,1')
     assert (first.cells, first.description) == ({"house": "B", "scale": "0.5"}, "calm, long")
-    assert second.cells == {"house": "B", "scale": "2", "set": "a=1;b=2", "snow": "1"} and first.name.startswith("calm_long-")
+    assert second.cells == {"house": "B", "scale": "2", "set": "a=1;b=2", "snow": "1"}
+    assert first.name.startswith("calm_long-")
 
 
 def test_a_value_may_contain_a_number_sign(table):
@@ -130,7 +132,8 @@ def test_a_value_may_contain_a_number_sign(table):
 def test_records_are_named_as_on_the_command_line(table, tmp_path, monkeypatch):
     monkeypatch.setenv("HOME", str(tmp_path / "me"))
     first, second = table('house,record\nA,"a.NS, b/a.EW"\nA,~/a.csv')
-    assert first.record == f"{tmp_path / 'a.NS'},{tmp_path / 'b' / 'a.EW'}" and second.record == str(tmp_path / "me" / "a.csv")
+    assert first.record == f"{tmp_path / 'a.NS'},{tmp_path / 'b' / 'a.EW'}"
+    assert second.record == str(tmp_path / "me" / "a.csv")
 
 
 @pytest.mark.parametrize("text, remedy", [
@@ -146,7 +149,10 @@ def test_commas_are_answered_with_the_remedy(table, text, remedy):
         [row.value("scale") for row in table(text)]
 
 
-SUMMARY = {"collapsed": True, "collapse_time_s": 21.5, "peak_drift": {"storey1": {"ns": 0.25, "ew": None}}, "broken": {"total": 7}}
+SUMMARY = {
+    "collapsed": True, "collapse_time_s": 21.5, "peak_drift": {"storey1": {"ns": 0.25, "ew": None}},
+    "broken": {"total": 7}
+}
 
 
 def result(rows, folder, summary, errors=()):
@@ -174,13 +180,15 @@ def test_one_row_of_results_per_run(table, tmp_path):
 def test_events_of_a_run(table, tmp_path):
     events = [Event(2.3, Tilt("ew")), Event(21.5, StructureFallen("carport"))]
     (run,) = result(table("house\nB\n"), tmp_path, {**SUMMARY, "events": events})
-    assert run["events"] == "2.30 s a storey drift E-W passes 1/10; 21.50 s carport has fallen: a level is down by half a storey"
+    assert run["events"] == ("2.30 s a storey drift E-W passes 1/10; "
+                             "21.50 s carport has fallen: a level is down by half a storey")
 
 
 def test_wall_sheets_stand_apart_from_joints(table, tmp_path):
     walls = {"joints": {"total": 376, "wall_sheets": 44}, "broken": {"total": 7, "wall_sheets": 5}}
     (run,) = result(table("house\nB\n"), tmp_path, {**SUMMARY, **walls})
-    assert [run[column] for column in ("joints", "broken", "wall_sheets", "broken_wall_sheets")] == ["376", "7", "44", "5"]
+    assert [run[column]
+            for column in ("joints", "broken", "wall_sheets", "broken_wall_sheets")] == ["376", "7", "44", "5"]
 
 
 def test_results_made_from_something_else_do_not_count(table, tmp_path):

@@ -25,17 +25,21 @@ def row(tmp_path):
 
 
 def test_every_column_becomes_an_option(row, tmp_path):
-    shaken = task_of(row("house snow joint_damping scale dt duration until_collapse seed start azimuth resample shortest", "C2 0.4 0.03 1.5 5e-5 3 yes 0 14 90 yes no"), tmp_path)
+    shaken = task_of(
+        row("house snow joint_damping scale dt duration until_collapse seed start azimuth resample shortest",
+            "C2 0.4 0.03 1.5 5e-5 3 yes 0 14 90 yes no"), tmp_path)
     assert shaken.script == "house" and shaken.options == RunOptions(
-        house="C2", quake=True, snow=0.4, joint_damping=0.03, scale=1.5, dt=5e-5, duration=3.0, until_collapse=True, seed=0, start=14.0, azimuth=90.0,
-        resample=True, no_frames=True)
-    assert task_of(row("house record snow", "A none 1"), tmp_path).options == RunOptions(house="A", snow=1.0, no_frames=True)
+        house="C2", quake=True, snow=0.4, joint_damping=0.03, scale=1.5, dt=5e-5, duration=3.0, until_collapse=True,
+        seed=0, start=14.0, azimuth=90.0, resample=True, no_frames=True)
+    assert task_of(row("house record snow", "A none 1"), tmp_path).options == RunOptions(
+        house="A", snow=1.0, no_frames=True)
     assert task_of(row("house", "A"), tmp_path).options == RunOptions(house="A", quake=True, no_frames=True)
 
 
 def test_paths_are_those_beside_the_table(row, tmp_path):
     options = task_of(row("house record", "mine.yaml a.csv,b.csv"), tmp_path).options
-    assert (options.house, options.record) == (str(tmp_path / "mine.yaml"), f"{tmp_path / 'a.csv'},{tmp_path / 'b.csv'}")
+    assert (options.house, options.record) == (str(
+        tmp_path / "mine.yaml"), f"{tmp_path / 'a.csv'},{tmp_path / 'b.csv'}")
 
 
 def test_changed_houses_are_written(row, tmp_path):

@@ -39,7 +39,8 @@ def test_a_changed_normal_of_a_stiff_joint(normal):
     one, other = cube(0, fixed=True), cube(0, 0.5)
     points = [(0.25, y, z) for y in (-0.1, 0.1) for z in (-0.1, 0.1)]
     O.dt, O.engines = 2e-4, yt.engines(gravity=(0, 0, 0))
-    joint = yt.connect(one, other, points, normal=(1, 0, 0), stiffness=(1.5e9, 1e4), strength=math.inf, damping_ratio=0.02)
+    joint = yt.connect(one, other, points, normal=(1, 0, 0), stiffness=(1.5e9, 1e4), strength=math.inf,
+                       damping_ratio=0.02)
     O.run(1, True)
     joint.normal = normal
     yt.set_velocity(O.bodies[other], (0, 0.01, 0.1))
@@ -57,7 +58,8 @@ def test_an_imposed_velocity_does_not_overload_a_stiff_joint(late, stiffness):
     O.dt, O.engines = 2e-4, yt.engines(gravity=(0, 0, 0))
 
     def connected():
-        return yt.connect(one, other, corners(0.25), normal=(0, 0, 1), stiffness=(stiffness, stiffness), strength=math.inf)
+        return yt.connect(one, other, corners(0.25), normal=(0, 0, 1), stiffness=(stiffness, stiffness),
+                          strength=math.inf)
 
     joint = None if late else connected()
     O.run(1, True)
@@ -150,7 +152,8 @@ def test_energies_of_engines_that_are_switched_off():
 def test_a_changed_step_leaves_the_work_of_the_ground_motion():
     plate()
     cube(5)
-    start(dt=5e-4, steps=1000, gravity=(0, 0, 0), ground_motion=yw.GroundMotionEngine(step=0.01, acceleration=[(6, 0, 0)] * 300))
+    start(dt=5e-4, steps=1000, gravity=(0, 0, 0), ground_motion=yw.GroundMotionEngine(
+        step=0.01, acceleration=[(6, 0, 0)] * 300))
     work = yt.energy()["ground_motion"]
     O.dt = 1e-5
     assert yt.energy()["ground_motion"] == work
@@ -180,7 +183,8 @@ def test_a_fixed_body_that_rotates_is_not_at_rest():
     O.dt, O.engines = 1e-4, yt.engines(skip_rest=200)
     yt.set_velocity(O.bodies[table], (0, 0, 0), (0, 0, 1))
     O.run(20000, True)
-    assert find_engine(yw.RestSkipper).skipped == 0 and O.bodies[table].state.ori.toAxisAngle()[1] == pytest.approx(2, rel=1e-3)
+    assert find_engine(yw.RestSkipper).skipped == 0
+    assert O.bodies[table].state.ori.toAxisAngle()[1] == pytest.approx(2, rel=1e-3)
 
 
 @pytest.mark.parametrize("dt, interval", [(3e-4, 0.01), (3e-4, 1e-3), (1.7e-4, 0.01), (5e-4, 0.002)])
@@ -190,4 +194,5 @@ def test_samples_at_multiples_of_the_interval(dt, interval):
     monitor = yw.HouseMonitor(interval=interval)
     start(dt=dt, steps=round(0.3 / dt) + 1, monitor=monitor)
     times = monitor.rows[:: len(monitor.columns())]
-    assert all(abs(time - k * interval) <= dt / 2 * (1 + 1e-9) for k, time in enumerate(times)) and len(times) > 0.3 / interval - 1
+    assert all(abs(time - k * interval) <= dt / 2 * (1 + 1e-9) for k, time in enumerate(times))
+    assert len(times) > 0.3 / interval - 1

@@ -34,11 +34,15 @@ def differences(given):
     return sorted(key for key in one.keys() | other.keys() if one.get(key) != other.get(key))
 
 
-@pytest.mark.parametrize("name, option", [(name, option) for name, option in options(RunOptions).items() if name not in ("house", "record", "then", "quake")])
+@pytest.mark.parametrize(
+    "name, option",
+    [(name, option) for name, option in options(RunOptions).items() if name not in ("house", "record", "then", "quake")]
+)
 def test_another_option(name, option):
     """Each option that decides results is part of the identity, no other; the duration may be lengthened."""
     decides = option.metadata["decides"] and name != "duration"
-    assert differences(replace(RUN, **{name: OTHER.get(option.metadata["kind"], Path("x"))})) == ([name] if decides else [])
+    assert differences(replace(RUN, **{name: OTHER.get(option.metadata["kind"],
+                                                       Path("x"))})) == ([name] if decides else [])
 
 
 @pytest.mark.parametrize(
@@ -62,11 +66,16 @@ def test_content_of_files_counts_not_their_place(tmp_path):
         (tmp_path / folder / "base.yaml").write_text(f"extends: A\nmaterials: {{timber: {{density: {density}}}}}\n")
         (tmp_path / folder / "mine.yaml").write_text("extends: base.yaml\n")
         (tmp_path / folder / "one.csv").write_text(letter)
-        return identity(RunOptions(house=str(tmp_path / folder / "mine.yaml"), record=str(tmp_path / folder / "one.csv"), then=f"{tmp_path / folder}/one.csv@{factor}"))
+        return identity(
+            RunOptions(house=str(tmp_path / folder / "mine.yaml"), record=str(tmp_path / folder / "one.csv"),
+                       then=f"{tmp_path / folder}/one.csv@{factor}"))
 
     one = written("a")
     assert written("b") == one
-    assert "content of files" in one and len({str(each) for each in (one, written("c", density=341), written("d", letter="y"), written("e", factor=2))}) == 4
+    assert "content of files" in one
+    assert len(
+        {str(each)
+         for each in (one, written("c", density=341), written("d", letter="y"), written("e", factor=2))}) == 4
 
 
 def test_another_package(monkeypatch):
@@ -79,7 +88,8 @@ def test_another_package(monkeypatch):
 def package(tmp_path_factory):
     """A copy of the package's folder."""
     folder = tmp_path_factory.mktemp("package") / "yade_timber"
-    shutil.copytree(Path(identities.__file__).resolve().parents[1], folder, ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copytree(
+        Path(identities.__file__).resolve().parents[1], folder, ignore=shutil.ignore_patterns("__pycache__"))
     return folder
 
 

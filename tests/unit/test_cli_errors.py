@@ -30,7 +30,9 @@ def refused(tmp_path, capsys):
 
     def call(*options, house="C2", out=tmp_path / "out", earthquake=True):
         with pytest.raises(SystemExit) as stop:
-            main(house, earthquake=earthquake, argv=["scripts/modelC2_quake.py", "--duration", "0.001", "--out", str(out), *map(str, options)])
+            main(house, earthquake=earthquake,
+                 argv=["scripts/modelC2_quake.py", "--duration", "0.001", "--out",
+                       str(out), *map(str, options)])
         said = capsys.readouterr()
         assert stop.value.code == 1
         assert said.err.startswith("error: ") and said.err.count("\n") == 1, said.err
@@ -60,7 +62,8 @@ def test_times_beyond_all_runs(refused, option, value):
 
 @pytest.mark.parametrize("value", ["-0.1", "1.1", "nan"])
 def test_joint_damping(refused, value):
-    assert "--joint-damping" in refused("--joint-damping", value) and "between 0 and 1" in refused("--joint-damping", value)
+    assert "--joint-damping" in refused("--joint-damping", value)
+    assert "between 0 and 1" in refused("--joint-damping", value)
 
 
 @pytest.mark.parametrize("option", ["--duration", "--dt", "--checkpoint", "--joint-damping"])
@@ -111,7 +114,8 @@ def test_motion_options_out_of_range(refused, options, said):
 
 @pytest.mark.parametrize("value", ["1", "0", "-3", "x", "", "2.5", "1000", "9" * 5000])
 def test_number_of_runs(refused, value):
-    assert "--ensemble" in refused("--ensemble", value) and any(part in refused("--ensemble", value) for part in ("between 2 and 999", "must be a whole number"))
+    assert "--ensemble" in refused("--ensemble", value)
+    assert any(part in refused("--ensemble", value) for part in ("between 2 and 999", "must be a whole number"))
 
 
 @pytest.mark.parametrize(
@@ -196,7 +200,8 @@ def test_unwritable_export(refused, tmp_path):
         assert "--export" in refused("--duration", 0, "--export", path)
 
 
-@pytest.mark.parametrize("content", [b"", b"no checkpoint", b"\n{}", b"\x00" * 1000 + b"\n[1]", b'xyz\n{"sha256": "0"}'])
+@pytest.mark.parametrize("content",
+                         [b"", b"no checkpoint", b"\n{}", b"\x00" * 1000 + b"\n[1]", b'xyz\n{"sha256": "0"}'])
 def test_damaged_checkpoint(refused, tmp_path, content):
     (tmp_path / "out").mkdir()
     (tmp_path / "out" / "checkpoint.yade").write_bytes(content)
@@ -228,7 +233,8 @@ def test_defaults():
     """Defaults of options come from the motion and the package's constants."""
     given = cli.read("C2", True, True, ["scripts/modelC2_snow.py"])
     scenario = planned(given)
-    assert (scenario.name, scenario.duration, scenario.snow_depth, scenario.scale) == ("modelC2_snow", scenario.motion.duration, 1.0, 1.0)
+    assert (scenario.name, scenario.duration, scenario.snow_depth,
+            scenario.scale) == ("modelC2_snow", scenario.motion.duration, 1.0, 1.0)
     assert str(given.folder) == "results/modelC2_snow" and given.views and not given.resume
     scenario = planned(cli.read("A", False, True, ["scripts/modelA_snow.py"]))
     assert scenario.motion is None and scenario.duration == QUIET_DURATION
@@ -262,10 +268,13 @@ def test_help_begins_with_the_ten_main_options_and_ends_with_those_for_experts(c
     main = [line.split()[0] for line in shown[:24] if line.startswith("  --")]
     assert len(main) >= 10 and {"--record", "--quake", "--snow", "--duration", "--out"} <= set(main)
     experts = [line.split()[0] for line in shown[shown.index("for experts:"):] if line.startswith("  --")]
-    assert set(experts) == {"--every-step", "--export", "--disturb", "--or-anew", "--shortest", "--resample", "--detrend", "--component"}
+    assert set(experts) == {
+        "--every-step", "--export", "--disturb", "--or-anew", "--shortest", "--resample", "--detrend", "--component"
+    }
 
 
-@pytest.mark.parametrize("option, remedy", [("--quak", "did you mean '--quake'?"), ("--joint_damping=0.1", "did you mean '--joint-damping'?")])
+@pytest.mark.parametrize("option, remedy", [("--quak", "did you mean '--quake'?"),
+                                            ("--joint_damping=0.1", "did you mean '--joint-damping'?")])
 def test_a_misspelt_option_is_answered_with_the_nearest(option, remedy):
     with pytest.raises(RunError, match=re.escape(remedy)):
         cli.read_house(["scripts/house.py", "A", option])
@@ -275,9 +284,9 @@ def test_error_is_a_value_error():
     assert issubclass(RunError, ValueError)
 
 
-@pytest.mark.parametrize(
-    "earthquake, snow, loads", [(False, True, "1 m of snow only"), (True, True, "earthquake and 1 m of snow"), (True, False, "earthquake"), (False, False, "own weight only")]
-)
+@pytest.mark.parametrize("earthquake, snow, loads", [(False, True, "1 m of snow only"),
+                                                     (True, True, "earthquake and 1 m of snow"),
+                                                     (True, False, "earthquake"), (False, False, "own weight only")])
 def test_help_states_the_loads(earthquake, snow, loads, capsys):
     with pytest.raises(SystemExit):
         cli.read("A", earthquake, snow, ["scripts/run.py", "--help"])

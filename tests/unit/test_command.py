@@ -35,7 +35,9 @@ def test_arguments_reach_the_script(tmp_path):
 
 
 def test_run_starts_yade_with_the_script():
-    assert KNOWN["command"]("run", ["C2", "--snow", "1"]) == ["yade", "-n", "-x", str(COMMAND.parent / "house.py"), "C2", "--snow", "1"]
+    assert KNOWN["command"](
+        "run", ["C2", "--snow", "1"]) == ["yade", "-n", "-x",
+                                          str(COMMAND.parent / "house.py"), "C2", "--snow", "1"]
 
 
 def test_version():

@@ -36,10 +36,20 @@ BURST = 300 * np.sin(3 * np.pi * TIME) * np.exp(-(((TIME - 5) / 2) ** 2))
 WAVES = np.column_stack([BURST, 0.8 * BURST, 0.3 * BURST])
 """Columns ns, ew, ud. [gal]"""
 OFFSETS = {
-    "gravity up": ((0, 0, 980.665), "constant part of 981 gal up-down (92 % of the peak) acts like a change of weight of 100 %; --detrend 0 removes it"),
-    "gravity down": ((0, 0, -980.665), "constant part of -981 gal up-down (92 % of the peak) acts like a change of weight of 100 %; --detrend 0 removes it"),
-    "north": ((60, 0, 0), "constant part of 60 gal N-S (17 % of the peak) acts like a lean of 6.12 %; --detrend 0 removes it"),
-    "west": ((0, -10, 0), "constant part of -10 gal E-W (4 % of the peak) acts like a lean of 1.02 %; --detrend 0 removes it"),
+    "gravity up": ((
+        0, 0, 980.665
+    ), "constant part of 981 gal up-down (92 % of the peak) acts like a change of weight of 100 %; --detrend 0 removes "
+       "it"
+                   ),
+    "gravity down": ((
+        0, 0, -980.665
+    ), "constant part of -981 gal up-down (92 % of the peak) acts like a change of weight of 100 %; --detrend 0 "
+       "removes it"
+                     ),
+    "north": ((60, 0, 0),
+              "constant part of 60 gal N-S (17 % of the peak) acts like a lean of 6.12 %; --detrend 0 removes it"),
+    "west": ((0, -10, 0),
+             "constant part of -10 gal E-W (4 % of the peak) acts like a lean of 1.02 %; --detrend 0 removes it"),
     "two": (
         (60, 0, -30),
         "constant part of 60 gal N-S (17 % of the peak) acts like a lean of 6.12 %, "
@@ -63,7 +73,10 @@ def jma(folder, waves):
 def peer(folder, waves):
     for values, name in zip(waves.T, ("000", "090", "-UP")):
         rows = "\n".join(f"{value * GAL / STANDARD_GRAVITY:.9E}" for value in values)
-        (folder / f"a{name}.AT2").write_text(f"PEER\nA, 1, STA, {name.strip('-')}\nACCELERATION IN UNITS OF G\nNPTS= {len(values)}, DT= .01 SEC\n{rows}\n")
+        (folder / f"a{name}.AT2").write_text(
+            f"PEER\nA, 1, STA, {name.strip('-')}\nACCELERATION IN UNITS OF G\nNPTS= {len(values)}, DT= .01 SEC\n"
+            f"{rows}\n"
+        )
     return str(folder / "a")
 
 
@@ -92,7 +105,8 @@ def test_no_warning_where_it_is_removed(tmp_path, processing, offset):
 
 @pytest.mark.filterwarnings("error")
 def test_no_warning_for_motions_as_recorded(tmp_path):
-    for motion in (read_motion(plain(tmp_path, WAVES)), default_motion(), synthetic_motion(2), trim(default_motion(), 17, 25)):
+    for motion in (read_motion(plain(tmp_path,
+                                     WAVES)), default_motion(), synthetic_motion(2), trim(default_motion(), 17, 25)):
         assert constant_note(motion) == ""
 
 
@@ -107,7 +121,8 @@ def test_noise_of_a_component_without_motion(tmp_path):
 
 
 def test_a_constant_record_and_a_tiny_one(tmp_path):
-    with pytest.warns(RecordWarning, match=r"of -1177 gal up-down \(100 % of the peak\) acts like a change of weight of 120 %"):
+    with pytest.warns(RecordWarning,
+                      match=r"of -1177 gal up-down \(100 % of the peak\) acts like a change of weight of 120 %"):
         read_motion(plain(tmp_path, 0 * WAVES + (0, 0, -1177)))
     with pytest.warns(RecordWarning, match=r"0.002 gal N-S \(17 % of the peak\)"):
         read_motion(plain(tmp_path, (WAVES + (60, 0, 0)) / 30_000))
@@ -140,7 +155,8 @@ def test_the_note_is_in_the_sentences():
     note = "constant part of 60 gal N-S (17 % of the peak) acts like a lean of 6.12 %; --detrend 0 removes it"
     noted = sample_summary(record={"note": note})
     assert record(noted) == f"the record's {note}"
-    assert sentence(town_summary("x", {"lot": noted}, noted.record)).endswith(f"Town x: 1 houses, 1 undamaged; the record's {note}")
+    assert sentence(town_summary("x", {"lot": (noted, np.eye(3))},
+                                 noted.record)).endswith(f"Town x: 1 houses, 1 undamaged; the record's {note}")
     assert record(sample_summary(record={"source": "a"})) == record(sample_summary()) == ""
 
 

@@ -182,7 +182,8 @@ def test_patterns_and_shapes_that_change():
     box(0.1, fixed=True)  # both have a radius of 2 cm
     turn = Quaternion()
     turn.setFromTwoVectors(Vector3(-1, -1, -1).normalized(), Vector3(0, 0, -1))
-    corner = Vector3(0.19, 0, 0.18 + math.sqrt(0.0399**2 - 0.01**2))  # of the core: 1 cm beyond the core's edge below, 0.1 mm deep
+    corner = Vector3(
+        0.19, 0, 0.18 + math.sqrt(0.0399**2 - 0.01**2))  # of the core: 1 cm beyond the core's edge below, 0.1 mm deep
     upper = O.bodies.append(yt.box((0.4, 0.3, 0.2), corner - turn * Vector3(-0.18, -0.13, -0.08), orientation=turn))
     start()
     O.engines = [e for e in O.engines if not isinstance(e, yw.UniformGravity)]
@@ -226,6 +227,9 @@ def test_refused_radius_keeps_the_geometry(radius):
 
 
 def test_hull_with_too_many_vertices():
-    points = [Vector3(math.cos(0.1 * k) * math.sin(0.37 * k), math.sin(0.1 * k) * math.sin(0.37 * k), math.cos(0.37 * k)) for k in range(2000)]
+    points = [
+        Vector3(math.cos(0.1 * k) * math.sin(0.37 * k),
+                math.sin(0.1 * k) * math.sin(0.37 * k), math.cos(0.37 * k)) for k in range(2000)
+    ]
     with pytest.raises(ValueError, match="at most 64 vertices, got 2000"):
         yt.polyhedron(points)

@@ -41,7 +41,8 @@ def run_with(folder, change):
 
 
 def read(folder):
-    return json.loads((folder / "summary.json").read_text(), parse_constant=lambda name: pytest.fail(f"{name} in summary.json"))
+    return json.loads((folder / "summary.json").read_text(),
+                      parse_constant=lambda name: pytest.fail(f"{name} in summary.json"))
 
 
 def column():
@@ -71,7 +72,8 @@ def test_results_until_the_failure_are_kept(tmp_path, change):
     assert "physical range" in error and "\n" not in error
     found = read(tmp_path)
     assert found["cut_off"] == error and 0.149 < found["duration_s"] < 0.201  # a force acts from the next step on
-    assert sentence(Summary.read(tmp_path)).startswith("Cut off at 0.") and abs(found["energy"]["residual_fraction"]) < 1e-3
+    assert sentence(
+        Summary.read(tmp_path)).startswith("Cut off at 0.") and abs(found["energy"]["residual_fraction"]) < 1e-3
     recorded = frames.load(tmp_path / frames.NAME)
     assert recorded.time[-1] < 0.151 and (tmp_path / "history.csv").read_text().count("nan") == 0
 
@@ -90,9 +92,11 @@ def test_energy_from_nothing_is_refused(tmp_path):
 
 def test_a_lot_that_fails_ends_alone(tmp_path, monkeypatch):
     """The other lot has its results. The record of a town is in its axes, not in those of its first lot."""
-    (tmp_path / "town.yaml").write_text("lots:\n  bad: {house: A, x: 0, y: 0, rotation: 90}\n  good: {house: A, x: 30, y: 0}\n")
+    (tmp_path /
+     "town.yaml").write_text("lots:\n  bad: {house: A, x: 0, y: 0, rotation: 90}\n  good: {house: A, x: 30, y: 0}\n")
     shaking = GroundMotion(0.01, np.outer(np.sin(np.arange(100)), [1.0, 3.0, 0.0]))
-    options = RunOptions(town=str(tmp_path / "town.yaml"), ground_motion=shaking, duration=0.1, out=tmp_path / "out", no_views=True, quiet=True)
+    options = RunOptions(town=str(tmp_path / "town.yaml"), ground_motion=shaking, duration=0.1, out=tmp_path / "out",
+                         no_views=True, quiet=True)
     after = runner.Run.after_chunk
 
     def failing(run):

@@ -24,7 +24,8 @@ def house():
     lying, loose = columns[0], columns[1]
     O.bodies[lying].state.ori = Quaternion(Vector3.UnitX, math.radians(60)) * O.bodies[lying].state.ori
     joints = engines.find_engine(yw.JointEngine).joints
-    west = next(k for k, spec in enumerate(model.joints) if "west" in spec.side and spec.storey == 1 and spec.kind == "column_beam" and spec.group == "main" and lying not in (joints[k].id1, joints[k].id2))
+    west = next(k for k, spec in enumerate(model.joints) if "west" in spec.side and spec.storey == 1
+                and spec.kind == "column_beam" and spec.group == "main" and lying not in (joints[k].id1, joints[k].id2))
     for k, joint in enumerate(joints):
         if k == west or loose in (joint.id1, joint.id2):
             joint.broken = [1] * len(joint.broken)
@@ -40,13 +41,16 @@ def test_by_place(house):
     broken = house.survey.count_broken(house.state(), springs=0)
     assert broken.by_place["1"]["west"].column_beam >= 1 and set(broken.by_place) == set(broken.by_storey)
     for storey, sides in broken.by_place.items():
-        assert max(side.total for side in sides.values()) <= broken.by_storey[storey] <= sum(side.total for side in sides.values())
-    assert broken.total == sum(broken.by_storey.values()) and house.survey.count_joints().total == len(house.model.joints)
+        totals = [side.total for side in sides.values()]
+        assert max(totals) <= broken.by_storey[storey] <= sum(totals)
+    assert broken.total == sum(broken.by_storey.values())
+    assert house.survey.count_joints().total == len(house.model.joints)
 
 
 def test_broken_joints_agree_with_the_engine(house):
     found = house.survey.count_broken(house.state(), springs=0)
-    assert found.total == sum(joint.isBroken for joint in engines.find_engine(yw.JointEngine).joints) and found.partly_broken == 0
+    assert found.total == sum(joint.isBroken for joint in engines.find_engine(yw.JointEngine).joints)
+    assert found.partly_broken == 0
 
 
 def test_lost_columns_are_an_event(house):
@@ -77,6 +81,7 @@ def test_motion_as_applied():
 def test_onset():
     """5 % of the Arias intensity: of a steady motion from 10 s to 20 s, at 10.5 s."""
     shaking = np.where((np.arange(3000) * 0.01 >= 10) & (np.arange(3000) * 0.01 < 20), 1.0, 0.0)
-    assert onset(GroundMotion(0.01, np.column_stack([shaking, 0 * shaking, 0 * shaking]))) == pytest.approx(10.5, abs=0.02)
+    assert onset(GroundMotion(0.01, np.column_stack([shaking, 0 * shaking, 0 * shaking]))) == pytest.approx(
+        10.5, abs=0.02)
     assert onset(GroundMotion(0.01, np.zeros((100, 3)))) is None
     assert 18.0 < onset(default_motion()) < 19.5

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Diagnosis of houses against sums by hand. Tolerances: results are rounded to three decimals."""
 
+import dataclasses
 import sys
 from functools import cache
 from pathlib import Path
@@ -76,14 +77,17 @@ def test_uplift():
     nothing.
     """
     known = diagnosis("B")["structures"]["main"]["uplift"]
-    assert (known["largest_kn"], known["fitting_kn"], known["too_weak"]) == (pytest.approx(2.2 * 5.3), pytest.approx(11.76), 0)
+    assert (known["largest_kn"], known["fitting_kn"], known["too_weak"]) == (pytest.approx(
+        2.2 * 5.3), pytest.approx(11.76), 0)
     assert diagnosis("C2")["structures"]["main"]["uplift"]["too_weak"] > 0
 
 
 def test_rules():
-    assert [brace_multiplier(section) for section in ((0.09, 0.045), (0.03, 0.09), (0.09, 0.09), (0.045, 0.045))] == [2.0, 1.5, 3.0, 0.0]
+    assert [brace_multiplier(section)
+            for section in ((0.09, 0.045), (0.03, 0.09), (0.09, 0.09), (0.045, 0.045))] == [2.0, 1.5, 3.0, 0.0]
     assert [eccentricity_factor(value) for value in (0.1, 0.3, 0.5, None)] == [1.0, pytest.approx(1 / 1.499), 0.5, 0.5]
-    assert [is_balanced(*case) for case in ((1.1, 3, 1), (0.5, 0.9, 1), (0.4, 0.9, 1), (0.4, 0.9, 0.3), (0, 0, None))] == [True, True, False, True, False]
+    assert [is_balanced(*case) for case in ((1.1, 3, 1), (0.5, 0.9, 1), (0.4, 0.9, 1), (0.4, 0.9, 0.3), (0, 0, None))
+            ] == [True, True, False, True, False]
     assert [judgement(iw)[:5] for iw in (1.5, 1.0, 0.7, 0.69)] == ["will ", "unlik", "may c", "likel"]
 
 
@@ -95,19 +99,34 @@ def test_headline_is_the_weakest_of_all_structures():
 
 def run_of(iw, collapsed, peak_gal=None, snow=0.0, broken=0):
     record = peak_gal and {"pga_gal": {"ns": peak_gal, "ew": 1.0, "ud": 5000.0}}
-    diagnosis = {"structures": {"main": {"storeys": {"1": {"directions": {"ns": {"iw": iw}}}}}}, "broken_from_start": broken}
-    return sample_summary(collapsed=collapsed, earthquake=bool(peak_gal), record=record, snow_depth_m=snow, diagnosis=diagnosis)
+    diagnosis = {
+        "structures": {"main": {"storeys": {"1": {"directions": {"ns": {"iw": iw}}}}}}, "broken_from_start": broken
+    }
+    return sample_summary(collapsed=collapsed, earthquake=bool(peak_gal), record=record, snow_depth_m=snow,
+                          diagnosis=diagnosis)
 
 
 def test_disagreement():
-    cases = ((1.2, True, 900), (1.2, False, 900), (0.5, True, 900), (0.5, False, 300), (None, True, 900), (0.5, False, None), (1.2, True, None))
-    assert [bool(comparison(run_of(iw, fell, peak))) for iw, fell, peak in cases] == [True, False, False, True, False, False, True]
+    cases = ((1.2, True, 900), (1.2, False, 900), (0.5, True, 900), (0.5, False, 300), (None, True, 900),
+             (0.5, False, None), (1.2, True, None))
+    assert [bool(comparison(run_of(iw, fell, peak)))
+            for iw, fell, peak in cases] == [True, False, False, True, False, False, True]
+
+
+def test_a_run_that_left_the_strong_shaking_out_is_no_test():
+    shaken = run_of(0.5, False, 900)
+    record = dataclasses.replace(shaken.record, onset_s=18.8, strong_end_s=27.0)
+    assert comparison(shaken.changed(record=record, duration_s=30.0)).startswith("Main stands")
+    assert [comparison(shaken.changed(record=record, duration_s=t)) for t in (0.0, 18.0, 26.0)] == ["", "", ""]
 
 
 def test_disagreement_names_this_run():
     assert comparison(run_of(0.5, False, 300)) == (
-        "Main stands although its Iw is 0.50; this run: peak acceleration 3.0 m/s2, weaker than the 4 m/s2 of the index's earthquake.")
+        "Main stands although its Iw is 0.50; this run: peak acceleration 3.0 m/s2, weaker than the 4 m/s2 of the "
+        "index's earthquake."
+    )
     assert comparison(run_of(1.2, True, 910, 1.0, 8)) == (
-        "Main collapsed although its Iw is 1.20; this run: peak acceleration 9.1 m/s2, stronger than the 4 m/s2 of the index's earthquake; "
+        "Main collapsed although its Iw is 1.20; this run: peak acceleration 9.1 m/s2, stronger than the 4 m/s2 of the "
+        "index's earthquake; "
         "snow 1 m; 8 joints broken from the start.")
     assert comparison(run_of(1.2, True, snow=2.0)).endswith("this run: no earthquake; snow 2 m.")

@@ -23,7 +23,9 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGES = [ROOT / "README.md", *(page for folder in ("docs", "research") for page in sorted((ROOT / folder).rglob("*.md")))]
+PAGES = [
+    ROOT / "README.md", *(page for folder in ("docs", "research") for page in sorted((ROOT / folder).rglob("*.md")))
+]
 LINKED = [*PAGES, ROOT / "CONTRIBUTING.md"]
 PROSE = [*LINKED, ROOT / "CHANGELOG.md"]
 LONGEST_SENTENCE, README_WORDS, CHANGELOG_LINES = 40, 700, 40
@@ -57,7 +59,8 @@ def blocks(page, text=None):
     found = []
     for match in BLOCK.finditer(text):
         kind, _, rest = (match["note"] or "").partition(": ")
-        block = Block(page, text[: match.start("language")].count("\n") + 1, match["language"], match["text"], (kind, rest.strip()))
+        block = Block(page, text[:match.start("language")].count("\n") + 1, match["language"], match["text"],
+                      (kind, rest.strip()))
         if block.language == "sh" or kind in ("file", "test"):
             found.append(block)
     return found
@@ -87,8 +90,12 @@ def places(tmp_path_factory):
 
 def run(command, folder):
     """CompletedProcess of a command line; its output is appended to OUTPUT in the folder."""
-    environment = {**os.environ, "MPLBACKEND": "Agg", "OMP_NUM_THREADS": "1", "PATH": f"{Path(shutil.which('yade') or sys.executable).parent}:{os.environ['PATH']}"}
-    done = subprocess.run(["bash", "-c", command], cwd=folder, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=150)
+    environment = {
+        **os.environ, "MPLBACKEND": "Agg", "OMP_NUM_THREADS": "1",
+        "PATH": f"{Path(shutil.which('yade') or sys.executable).parent}:{os.environ['PATH']}"
+    }
+    done = subprocess.run(["bash", "-c", command], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
+                          capture_output=True, text=True, timeout=150)
     with open(folder / OUTPUT, "a") as file:
         file.write(done.stdout + done.stderr)
     return done
@@ -163,7 +170,9 @@ def unknown_sources(text):
 
 def test_named_sources_exist():
     assert unknown_sources((ROOT / "CONTRIBUTING.md").read_text()) == []
-    assert unknown_sources("`house/joints.py: find_joints` `house/joints.py: no_function` `house/no.py` `No.cpp` `kernel/joint_law.*`") == [
+    assert unknown_sources(
+        "`house/joints.py: find_joints` `house/joints.py: no_function` `house/no.py` `No.cpp` `kernel/joint_law.*`"
+    ) == [
         "house/joints.py: no_function",
         "house/no.py",
         "No.cpp",
@@ -192,9 +201,14 @@ def test_documents_are_short():
 
 def test_links_and_sentences_are_found():
     page = ROOT / "docs" / "results.md"
-    assert broken_links(page, "[a](limits.md#limits) [b](no.md) [c](limits.md#no) [d](#drift) [e](https://yade-dem.org)") == ["no.md", "limits.md#no"]
+    assert broken_links(page,
+                        "[a](limits.md#limits) [b](no.md) [c](limits.md#no) [d](#drift) [e](https://yade-dem.org)") == [
+                            "no.md", "limits.md#no"
+                        ]
     words = "word " * 41
-    assert all(longest_sentence(text).split() == words.split() for text in (words, f"Short. {words}", f"- {words}", f"1. Short.\n   {words}"))
+    assert all(
+        longest_sentence(text).split() == words.split()
+        for text in (words, f"Short. {words}", f"- {words}", f"1. Short.\n   {words}"))
     assert longest_sentence(f"```\n{words}\n```\n# {words}\n| {words} |\n\n    {words}\n").strip() == ""
 
 
@@ -219,7 +233,10 @@ def differences(defined, found):
     defined beside its parts.
     """
     undefined = [key for key in found if not any(fnmatchcase(key, pattern) for pattern in defined)]
-    unused = [pattern for pattern in defined if not any(fnmatchcase(key, pattern) or key.startswith(pattern + ".") for key in found)]
+    unused = [
+        pattern for pattern in defined
+        if not any(fnmatchcase(key, pattern) or key.startswith(pattern + ".") for key in found)
+    ]
     return undefined, unused
 
 
@@ -263,7 +280,8 @@ true
 
 def test_blocks_are_found():
     found = blocks(ROOT / "README.md", PAGE)
-    assert [(b.line, b.language, b.note) for b in found] == [(2, "yaml", ("file", "a.txt")), (8, "sh", ("test", "--more")), (16, "sh", ("", ""))]
+    assert [(b.line, b.language, b.note)
+            for b in found] == [(2, "yaml", ("file", "a.txt")), (8, "sh", ("test", "--more")), (16, "sh", ("", ""))]
     assert commands(found[1].text) == ["cat a.txt", "false    --or"]
 
 

@@ -34,14 +34,20 @@ def test_only_missing_runs_are_done(tmp_path, monkeypatch):
     """
     monkeypatch.setattr(driver, "command", lambda script: [sys.executable, str(script)])
     scripts = fake_script(tmp_path, "import sys\nif '--seed=7' in sys.argv: sys.exit('error: no')\n" + WRITES)
-    tasks = [Task("run", tmp_path / name, RunOptions(house="A", **given)) for name, given in (("a", {"dt": 2e-4}), ("b", {"seed": 7}), ("c", {}))]
+    tasks = [
+        Task("run", tmp_path / name, RunOptions(house="A", **given))
+        for name, given in (("a", {"dt": 2e-4}), ("b", {"seed": 7}), ("c", {}))
+    ]
     tasks[2].folder.mkdir()
     old = sample_summary(made_from=made_from(RunOptions(house="A")))
     old.write(tasks[2].folder)
     said = []
     done = run_missing(tasks, scripts, 2, said.append)
     assert "--dt=0.0002" in done[tasks[0]].scenario
-    assert done[tasks[1]] is None and tasks[1].error == "no" and tasks[1].status == "failed" and any("b: failed: no" in line for line in said)
+    assert done[tasks[1]] is None
+    assert tasks[1].error == "no"
+    assert tasks[1].status == "failed"
+    assert any("b: failed: no" in line for line in said)
     assert done[tasks[2]] == old and said[0].startswith("2 of 3 ")
 
 

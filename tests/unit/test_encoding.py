@@ -25,12 +25,14 @@ STRICT = {"LC_ALL": "C.UTF-8", "PYTHONIOENCODING": "utf-8:strict"}
 def run(folder, arguments, environment):
     """A short run, which must end with its results."""
     command = ["yade", "-n", "-x", str(ROOT / "scripts/house.py"), *arguments, "--snow", "0", "--duration", "0.01"]
-    done = subprocess.run([os.fsencode(word) for word in command], cwd=folder, capture_output=True, env={**os.environ, **environment}, timeout=300)
+    done = subprocess.run([os.fsencode(word) for word in command], cwd=folder, capture_output=True,
+                          env={**os.environ, **environment}, timeout=300)
     assert done.returncode == 0, done.stderr.decode(errors="replace")
     assert b"Traceback" not in done.stderr
 
 
-@pytest.mark.parametrize("out, environment", [(JAPANESE, C_LOCALE), (JAPANESE, {"LC_ALL": "C"}), (BYTES, STRICT)], ids=["ASCII", "C", "bytes"])
+@pytest.mark.parametrize("out, environment", [(JAPANESE, C_LOCALE), (JAPANESE, {"LC_ALL": "C"}), (BYTES, STRICT)],
+                         ids=["ASCII", "C", "bytes"])
 def test_folder_of_the_results(tmp_path, out, environment):
     """Written and resumed."""
     for options in ([], ["--resume"]):
@@ -46,7 +48,8 @@ def test_names_of_house_and_record(tmp_path):
     run(tmp_path, [house.name, "--record", record.name, "--report"], STRICT)
     folder = tmp_path / "results" / "house\\udcff"
     assert json.loads((folder / "summary.json").read_text())["scenario"] == "house\\udcff"
-    assert "record\\udcff.csv" in (folder / "report.html").read_text(encoding="utf-8") and (folder / "front.png").exists()
+    assert "record\\udcff.csv" in (folder / "report.html").read_text(encoding="utf-8")
+    assert (folder / "front.png").exists()
 
 
 def test_text_files_take_any_text(tmp_path):
@@ -61,7 +64,9 @@ PLAIN = ("-", "-0.5", "+2", "-1e-3", "a=b", "", "House =1", "1/120", 3, -0.5, No
 def test_cells_are_no_formulas():
     rows = list(csv.reader(io.StringIO(csv_text(("name",), [[value] for value in FORMULAS]), newline="")))[1:]
     assert [row[0] for row in rows] == [f"'{value}" for value in FORMULAS]
-    assert csv_text(("a",), [[value] for value in PLAIN]).splitlines()[1:] == ["-", "-0.5", "+2", "-1e-3", "a=b", '""', "House =1", "1/120", "3", "-0.5", '""', "True"]
+    assert csv_text(("a", ), [[value] for value in PLAIN]).splitlines()[1:] == [
+        "-", "-0.5", "+2", "-1e-3", "a=b", '""', "House =1", "1/120", "3", "-0.5", '""', "True"
+    ]
 
 
 SECRET = "root:x1y2z3:0:0\n"
@@ -76,7 +81,8 @@ def test_a_file_that_is_no_house_file_is_not_quoted(tmp_path, name):
     (tmp_path / "house.yaml").write_text(f"extends: {name}\n")
     (tmp_path / "town.yaml").write_text(f"name: t\nlots:\n  a: {{house: {name}, x: 0, y: 0}}\n")
     for load, file in ((load_house, "house.yaml"), (load_town, "town.yaml")):
-        with pytest.raises(HouseError, match=rf"^{file}:\d: .*is not a house file; its name must end in .yaml or .yml") as caught:
+        with pytest.raises(HouseError,
+                           match=rf"^{file}:\d: .*is not a house file; its name must end in .yaml or .yml") as caught:
             load(tmp_path / file)
         assert "x1y2z3" not in str(caught.value)
 

@@ -37,7 +37,10 @@ from yade_timber.text.english import sentence
 def summary(verdict="unsafe", drift=0.1, falls=None, springs=3, **more):
     """Summary of a run with a largest drift [-]; falls: collapse time [s]"""
     drifts = {"storey1": {"ns": drift, "ew": drift / 2}, "storey2": {"ns": None, "ew": None}}
-    values = {"verdict": verdict, "collapsed": falls is not None, "collapse_time_s": falls, "peak_drift": drifts, "residual_drift": drifts}
+    values = {
+        "verdict": verdict, "collapsed": falls is not None, "collapse_time_s": falls, "peak_drift": drifts,
+        "residual_drift": drifts
+    }
     return sample_summary(**{**values, "broken": {"total": 1, "springs": springs}, **more})
 
 
@@ -90,22 +93,32 @@ def test_joints_and_shapes_stay(houses):
 
 
 def test_spread_by_hand():
-    assert statistics.spread([4, 1, 3, 2, 10]) == {"runs": 5, "lowest": 1, "lower_quartile": 2, "median": 3, "upper_quartile": 4, "highest": 10}
+    assert statistics.spread(
+        [4, 1, 3, 2,
+         10]) == {"runs": 5, "lowest": 1, "lower_quartile": 2, "median": 3, "upper_quartile": 4, "highest": 10}
     assert statistics.spread([2])["median"] == 2
 
 
 def test_numbers_and_words_of_a_summary():
     """Flags are no numbers; what has no value is the word 'none'."""
-    found = sample_summary(dt=1e-4, collapsed=True, energy={"input": 5}, versions={"yade": "x"}, peak_drift={"storey1": {"ns": 0.2, "ew": 0.1}})
+    found = sample_summary(dt=1e-4, collapsed=True, energy={"input": 5}, versions={"yade": "x"},
+                           peak_drift={"storey1": {"ns": 0.2, "ew": 0.1}})
     numbers, words = statistics.numbers(found), statistics.words(found)
-    expected = {"largest_peak_drift": 0.2, "largest_residual_drift": 0.0, "dt": 1e-4, "energy.input": 5, "peak_drift.storey1.ns": 0.2}
-    assert numbers.items() >= expected.items() and words.items() >= {"collapsed": "true", "tilt_direction": "none", "verdict": "collapsed"}.items()
-    assert not {"collapsed", "events", "tilt_direction"} & numbers.keys() and not {"model", "versions.yade", "dt"} & words.keys()
+    expected = {
+        "largest_peak_drift": 0.2, "largest_residual_drift": 0.0, "dt": 1e-4, "energy.input": 5,
+        "peak_drift.storey1.ns": 0.2
+    }
+    assert numbers.items() >= expected.items()
+    assert words.items() >= {"collapsed": "true", "tilt_direction": "none", "verdict": "collapsed"}.items()
+    assert not {"collapsed", "events", "tilt_direction"} & numbers.keys()
+    assert not {"model", "versions.yade", "dt"} & words.keys()
 
 
 def test_spreads_count_the_runs_that_have_a_number():
     found = statistics.spreads([summary(falls=5.0), summary(falls=7.0), summary()])
-    assert found["collapse_time_s"] == {"runs": 2, "lowest": 5.0, "lower_quartile": 5.5, "median": 6.0, "upper_quartile": 6.5, "highest": 7.0}
+    assert found["collapse_time_s"] == {
+        "runs": 2, "lowest": 5.0, "lower_quartile": 5.5, "median": 6.0, "upper_quartile": 6.5, "highest": 7.0
+    }
     assert found["largest_peak_drift"]["runs"] == 3
     assert statistics.counts([summary(falls=5.0), summary()])["collapsed"] == {"true": 1, "false": 1}
 
@@ -117,15 +130,18 @@ def test_share_has_its_interval():
 
 
 def test_outcomes_from_the_best_to_the_worst():
-    assert list(statistics.outcomes([summary("collapsed"), summary(), summary("collapsed")]).items()) == [("unsafe", 1), ("collapsed", 2)]
+    assert list(statistics.outcomes([summary("collapsed"), summary(),
+                                     summary("collapsed")]).items()) == [("unsafe", 1), ("collapsed", 2)]
 
 
 @pytest.mark.parametrize(
     "found, number",
     [
         ([summary(drift=d) for d in (0.1, 0.3, 0.2)], 3),
-        ([summary(drift=0.125), summary(drift=0.375), summary("collapsed", 9.0, 5.0)], 1),  # equally near to 0.25: the first
-        ([summary(), *(summary("collapsed", d, t) for d, t in ((9.0, 6.0), (8.0, 5.0), (7.0, 8.0)))], 2),  # by the collapse time
+        ([summary(drift=0.125), summary(drift=0.375),
+          summary("collapsed", 9.0, 5.0)], 1),  # equally near to 0.25: the first
+        ([summary(), *(summary("collapsed", d, t)
+                       for d, t in ((9.0, 6.0), (8.0, 5.0), (7.0, 8.0)))], 2),  # by the collapse time
         ([summary(drift=0.1), summary("collapsed", 9.0, 5.0)], 2),  # equally frequent: the worse
     ],
 )
@@ -159,8 +175,11 @@ def test_tasks_are_disturbed_but_the_first(finished):
     """Run k has the seed k, whatever the number of runs: an ensemble can be extended."""
     options, planned, _ = finished
     assert [(task.options.scale, task.options.disturb) for task in planned] == [(2.0, None), (2.0, 2), (2.0, 3)]
-    assert [task.folder.relative_to(options.folder).as_posix() for task in planned] == ["runs/001", "runs/002", "runs/003"]
-    assert [task.words() for task in runs.tasks("modelA_quake", replace(options, ensemble=5))[:3]] == [task.words() for task in planned]
+    assert [task.folder.relative_to(options.folder).as_posix()
+            for task in planned] == ["runs/001", "runs/002", "runs/003"]
+    assert [task.words() for task in runs.tasks("modelA_quake", replace(options, ensemble=5))[:3]] == [
+        task.words() for task in planned
+    ]
 
 
 def test_a_changed_house_file_outdates_its_runs(tmp_path):
@@ -228,8 +247,12 @@ def test_failed_runs_are_counted_and_end_in_an_error(finished, monkeypatch):
 def test_lines_for_the_terminal(finished):
     _, _, found = finished
     lines = results.lines(results.content(found, {}), found[1])
-    assert lines[1:3] == ["unsafe: 2 runs, 67 % (95 % confidence: 9 to 99 %)", "collapsed: 1 run, 33 % (95 % confidence: 1 to 91 %)"]
-    assert [line.split() for line in lines if line.startswith("collapse [s]")] == [["collapse", "[s]", "2.9", "2.9", "in", "1", "run"]]
+    assert lines[1:3] == [
+        "unsafe: 2 runs, 67 % (95 % confidence: 9 to 99 %)", "collapsed: 1 run, 33 % (95 % confidence: 1 to 91 %)"
+    ]
+    assert [line.split() for line in lines if line.startswith("collapse [s]")] == [[
+        "collapse", "[s]", "2.9", "2.9", "in", "1", "run"
+    ]]
     assert lines[-1] == "shown: run 1, nearest to the median of the peak drift of the unsafe ones"
 
 
@@ -250,12 +273,18 @@ def test_a_damaged_file_is_refused(tmp_path, content):
 
 
 def place(**more):
-    return {"ensemble": {"run": 2, "runs": 3, "outcomes": {"unsafe": 2, "collapsed": 1}, "peak_drift_standing": [1 / 14, 1 / 8], **more}}
+    return {
+        "ensemble": {
+            "run": 2, "runs": 3, "outcomes": {"unsafe": 2, "collapsed": 1}, "peak_drift_standing": [1 / 14, 1 / 8],
+            **more
+        }
+    }
 
 
 def test_sentences_name_the_run_and_the_outcomes():
     plain, shown = summary(), summary(**place())
-    assert sentence(shown) == f"Run 2 of 3 (2 unsafe, 1 collapsed; peak drift 1/14 to 1/8 in those that stand). {sentence(plain)}"
+    assert sentence(
+        shown) == f"Run 2 of 3 (2 unsafe, 1 collapsed; peak drift 1/14 to 1/8 in those that stand). {sentence(plain)}"
     none = summary(**place(outcomes={"collapsed": 3}, peak_drift_standing=None))
     assert sentence(none).startswith("Run 2 of 3 (3 collapsed). House A ")
     assert japanese.result(shown) == f"3 回の計算の 2 番目（危険 2 回、倒壊 1 回）。{japanese.result(plain)}"
@@ -265,14 +294,18 @@ def test_origin_names_the_run():
     recorded = sample()
     plain = provenance.provenance(recorded)
     recorded.summary = recorded.summary.changed(**place())
-    assert provenance.provenance(recorded) == plain.replace("; time", "; Run 2 of 3; time") and "3 回の計算の 2 番目" in provenance.provenance(recorded, japanese)
+    assert provenance.provenance(recorded) == plain.replace("; time", "; Run 2 of 3; time")
+    assert "3 回の計算の 2 番目" in provenance.provenance(recorded, japanese)
 
 
 def histories():
     """Histories of three runs of one storey; the second ends after half the time."""
     time = np.arange(0, DURATION, 0.01)
     columns = ["time [s]", "drift_ns1 [-]", "drift_ew1 [-]"]
-    return [History(columns, np.column_stack([time[:n], k * time[:n], 0 * time[:n]])) for n, k in ((400, 1), (200, 5), (400, 2))]
+    return [
+        History(columns, np.column_stack([time[:n], k * time[:n], 0 * time[:n]]))
+        for n, k in ((400, 1), (200, 5), (400, 2))
+    ]
 
 
 def test_bands_of_three_runs():
@@ -286,6 +319,8 @@ def test_page_of_bands():
     recorded = sample()
     recorded.summary = recorded.summary.changed(**place())
     figure = bands.page(recorded, dict(enumerate([recorded.history] * 3, 1)), 40)
-    assert len(figure.axes) == 2 and [text.get_text() for text in figure.legends[0].texts] == ["range", "middle half", "median", "run 2, which is shown"]
+    assert len(figure.axes) == 2
+    assert [text.get_text()
+            for text in figure.legends[0].texts] == ["range", "middle half", "median", "run 2, which is shown"]
     (line,) = [line for line in figure.axes[0].lines if line.get_label().startswith("run 2")]
     assert np.array_equal(line.get_ydata(), recorded.history.drift(1, "ns"))

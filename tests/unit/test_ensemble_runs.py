@@ -26,7 +26,8 @@ pytestmark = pytest.mark.skipif(shutil.which("yade") is None, reason="yade is no
 def start(folder, *options, script="modelC2_snow"):
     """Process of a run script with results in a folder."""
     command = ["yade", "-n", "-x", "-j1", str(SCRIPTS / f"{script}.py"), *options, "--out", str(folder)]
-    return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                            text=True)
 
 
 def run(folder, *options, **script):
@@ -47,15 +48,19 @@ def test_an_ensemble_is_extended_and_replaced(tmp_path):
     said = run(tmp_path, *SHORT, "--ensemble", "3", "--jobs", "1")
     assert "1 of 3 runs to do" in said and {path: path.stat().st_mtime_ns for path in kept} == kept
     found, summary = read(tmp_path), json.loads((tmp_path / "summary.json").read_text())
-    assert found["finished"] == [1, 2, 3] and summary["ensemble"]["runs"] == 3 and summary["sentence"].startswith(f"Run {found['shown']} of 3 (3 undamaged")
-    assert all((tmp_path / name).exists() for name in ("ensemble.csv", "ensemble.png", "front.png", "player.html", "history.csv"))
+    assert found["finished"] == [1, 2, 3]
+    assert summary["ensemble"]["runs"] == 3
+    assert summary["sentence"].startswith(f"Run {found['shown']} of 3 (3 undamaged")
+    assert all((tmp_path / name).exists()
+               for name in ("ensemble.csv", "ensemble.png", "front.png", "player.html", "history.csv"))
 
     first, second, third = (history.rows[:, 1:5] for history in histories(tmp_path).values())
     assert all(1e-13 < np.abs(other - first).max() < 1e-6 for other in (second, third, second - third + first))
     run(tmp_path, *SHORT, "--no-views", "--quiet")
     for name in ("history.csv", "breaks.csv", "storeys.csv", "joints.csv"):
         assert (tmp_path / name).read_bytes() == (tmp_path / "runs" / "001" / name).read_bytes()
-    assert not list(tmp_path.glob("ensemble.*")) and "ensemble" not in json.loads((tmp_path / "summary.json").read_text())
+    assert not list(tmp_path.glob("ensemble.*"))
+    assert "ensemble" not in json.loads((tmp_path / "summary.json").read_text())
 
 
 def test_ctrl_c_and_faults(tmp_path):
@@ -69,8 +74,11 @@ def test_ctrl_c_and_faults(tmp_path):
         time.sleep(0.05)
     os.kill(process.pid, signal.SIGINT)
     said, _ = process.communicate(timeout=60)
-    assert process.returncode == 128 + signal.SIGINT and said.rstrip().endswith("stopped; the same command continues"), said
-    assert not is_locked(tmp_path / "runs" / "001") and not (tmp_path / "summary.json").exists() and not (tmp_path / "runs" / "002").exists()
+    assert process.returncode == 128 + signal.SIGINT and said.rstrip().endswith(
+        "stopped; the same command continues"), said
+    assert not is_locked(tmp_path / "runs" / "001")
+    assert not (tmp_path / "summary.json").exists()
+    assert not (tmp_path / "runs" / "002").exists()
     house = tmp_path / "bad.yaml"
     house.write_text("extends: C2\nstructures: {main: 3}\n")
     process = start(tmp_path, str(house), "--ensemble", "2", script="house")

@@ -24,7 +24,8 @@ def survey(run):
 
 
 def states(run):
-    return [(time, State(position, orientation, broken)) for time, position, orientation, broken in zip(run.time, run.position, run.orientation, run.broken)]
+    return [(time, State(position, orientation, broken))
+            for time, position, orientation, broken in zip(run.time, run.position, run.orientation, run.broken)]
 
 
 def events(run, log=None):
@@ -68,7 +69,8 @@ def test_a_column_loose_from_the_start_may_fall():
     run.broken[:] = 0
     run.joints.damaged[[0, 4]] = True
     run.broken[:, [0, 4]] = 4
-    assert survey(run).count_columns(states(run)[0][1]).loose == 0 and max(one.facts.number for one in events(run) if one.kind == "columns_lost") == 4
+    assert survey(run).count_columns(states(run)[0][1]).loose == 0
+    assert max(one.facts.number for one in events(run) if one.kind == "columns_lost") == 4
 
 
 def test_drift_of_a_structure_is_the_larger_component():
@@ -81,7 +83,8 @@ def test_drift_of_a_structure_is_the_larger_component():
     levels = [level for level in known.levels if level.structure == name]
     moved = run.elements.position.copy()
     moved[[mark for level in levels for mark in level.marks]] += (0.03, 0.04, 0.0)
-    assert known.drift(State(moved, state.orientation, state.broken), name) == pytest.approx(0.04 / levels[0].height, rel=1e-6)
+    assert known.drift(State(moved, state.orientation, state.broken), name) == pytest.approx(
+        0.04 / levels[0].height, rel=1e-6)
 
 
 def test_a_resumed_log_repeats_nothing():
@@ -103,7 +106,8 @@ def snowy_house(drop, slide, tilt=0.0):
     for values, value in ((e.name, "snow"), (e.kind, "snow"), (e.group, "main"), (e.material, "snow")):
         values.append(value)
     e.vertices.append(frames_sample.box((3.0, 1.0, 0.4)))
-    e.position, e.orientation = np.vstack([e.position, e.position[ROOF] + (0, 0, 0.6)]), np.vstack([e.orientation, [1, 0, 0, 0]])
+    e.position, e.orientation = np.vstack([e.position, e.position[ROOF] + (0, 0, 0.6)]), np.vstack(
+        [e.orientation, [1, 0, 0, 0]])
     position, orientation = e.position.copy(), e.orientation.copy()
     orientation[ROOF] = [np.cos(tilt / 2), np.sin(tilt / 2), 0, 0]
     north, up = np.array([0, np.cos(tilt), np.sin(tilt)]), np.array([0, -np.sin(tilt), np.cos(tilt)])
@@ -111,8 +115,9 @@ def snowy_house(drop, slide, tilt=0.0):
     return survey(run), State(position, orientation, run.broken[0])
 
 
-@pytest.mark.parametrize("drop, slide, tilt, fallen", [
-    (0, 0, 0, []), (0.9, 4.0, 0, []), (1.1, 3.0, 0, []), (1.1, 4.0, 0, [ROOF]), (3.4, 3.0, 0, []), (3.5, 3.0, 0, [ROOF]), (0, 0, 1.5, []), (0, 5.0, -1.5, [ROOF])])
+@pytest.mark.parametrize("drop, slide, tilt, fallen", [(0, 0, 0, []), (0.9, 4.0, 0, []), (1.1, 3.0, 0, []),
+                                                       (1.1, 4.0, 0, [ROOF]), (3.4, 3.0, 0, []), (3.5, 3.0, 0, [ROOF]),
+                                                       (0, 0, 1.5, []), (0, 5.0, -1.5, [ROOF])])
 def test_fallen_snow(drop, slide, tilt, fallen):
     """Snow that a leaning roof carries along, or that hovers above the eaves (3.1 m north of the middle), has not
     fallen; it touches the ground from a drop of 3.1 + 0.6 - 0.2 - 0.05 = 3.45 m on."""
@@ -121,7 +126,9 @@ def test_fallen_snow(drop, slide, tilt, fallen):
 
 
 @pytest.mark.parametrize("structure, name, expected", [
-    ("main", "main.roof.west", "west roof"), ("main", "main.roof", "roof"), ("entrance", "entrance.roof.north", "entrance's north roof"),
+    ("main", "main.roof.west", "west roof"),
+    ("main", "main.roof", "roof"),
+    ("entrance", "entrance.roof.north", "entrance's north roof"),
     ("main", "main.roof2.east", "east roof2"),
 ])
 def test_event_of_fallen_snow(structure, name, expected):
@@ -134,7 +141,8 @@ def test_event_of_fallen_snow(structure, name, expected):
 
 
 @pytest.mark.parametrize("place, expected", [
-    (("column_beam", "1", "west"), "column-beam joint, storey 1, west side"), (("roof_beam", "entrance", "inside"), "roof-beam joint, entrance, inside"),
+    (("column_beam", "1", "west"), "column-beam joint, storey 1, west side"),
+    (("roof_beam", "entrance", "inside"), "roof-beam joint, entrance, inside"),
     (("column_beam", "2", "north+east"), "column-beam joint, storey 2, north and east sides"),
 ])
 def test_joint_place(place, expected):
@@ -153,45 +161,79 @@ def test_removed_elements_are_no_damage():
 # --- sentences --------------------------------------------------------------------------------------------------------
 
 STANDING = {
-    "model": "B", "earthquake": True, "joints": {"total": 206}, "columns": {"total": 90},
-    "peak_drift": {"storey1": {"ns": 0.001, "ew": 0.002}, "storey2": {"ns": 0.001, "ew": 0.0}}, "residual_drift": {"storey1": {"ns": 0.0, "ew": 1e-5}},
+    "model": "B",
+    "earthquake": True,
+    "joints": {"total": 206},
+    "columns": {"total": 90},
+    "peak_drift": {"storey1": {"ns": 0.001, "ew": 0.002}, "storey2": {"ns": 0.001, "ew": 0.0}},
+    "residual_drift": {"storey1": {"ns": 0.0, "ew": 1e-5}},
 }
 SOUND = {"peak_drift": 0.002}
 
 
 def drifts(peak, residual):
-    return {"peak_drift": {"storey1": {"ns": 0.0, "ew": peak}}, "residual_drift": {"storey1": {"ns": 0.0, "ew": residual}}}
+    return {
+        "peak_drift": {"storey1": {"ns": 0.0, "ew": peak}}, "residual_drift": {"storey1": {"ns": 0.0, "ew": residual}}
+    }
 
 
 @pytest.mark.parametrize(
     "changes, expected, absent",
     [
-        ({}, ["House B is undamaged: ", "peak storey drift 1/500 E-W in storey 1, below the damage limit of 1/120", "0 of 206"], ["residual", "leans"]),
+        ({}, [
+            "House B is undamaged: ", "peak storey drift 1/500 E-W in storey 1, below the damage limit of 1/120",
+            "0 of 206"
+        ], ["residual", "leans"]),
         ({**drifts(0.12, 0.0004), "tilt_time_s": 19.4, "tilt_direction": "ew"},
          ["is unsafe: ", "1/8 E-W", "beyond the tilt of 1/10", "residual drift below 1/1000;"], ["leans", "undamaged"]),
-        (drifts(1 / 13, 0.01), ["is unsafe: ", "1/13", "beyond the safety limit of 1/30", "residual drift 1/100"], ["leans"]),
+        (drifts(1 / 13, 0.01), ["is unsafe: ", "1/13", "beyond the safety limit of 1/30", "residual drift 1/100"
+                                ], ["leans"]),
         (drifts(1 / 80, 0.0), ["is repairable: ", "beyond the damage limit of 1/120"], ["unsafe"]),
         (drifts(0.3, 0.25), ["is unsafe and leans at the end", "1/3 E-W", "residual drift 1/4"], []),
         ({"broken": {"partly_broken": 2}}, ["is repairable: ", "below the damage limit", "2 partly"], []),
-        ({"columns": {"total": 90, "fallen": 1}, "events": [Event(20.5, ColumnsLost(1, 90))]},
-         ["is unsafe: ", "1 fallen of 90 columns, the first at 20.5 s"], []),
-        ({"collapsed": True, "collapse_time_s": 25.0, "tilt_time_s": 22.7, "tilt_direction": "ns",
-          "broken": {"total": 5, "partly_broken": 79}, "columns": {"total": 90, "fallen": 42, "loose": 3}},
-         ["House B collapsed at 25.0 s", "1/10 N-S at 22.7 s", "5 of 206 joints broken, 79 partly", "42 fallen and 3 loose of 90 columns"], ["unsafe"]),
-        ({"still_moving": True, "final_amplitude": {"storey1": {"ns": 0.004, "ew": 0.01}}}, ["still moving by ±1/100 E-W"], []),
-        ({"structures": {"main": SOUND, "carport": {**SOUND, "collapsed": True}, "shed": SOUND, "entrance": {**SOUND, "peak_drift": 0.3, "residual_drift": 0.2}},
-          "events": [Event(21.35, StructureFallen("carport"))]},
-         ["is undamaged", "carport collapsed at 21.4 s, entrance unsafe and leans (peak drift 1/3)"], ["shed"]),
-        ({"structures": {"main": SOUND, "porch": {**SOUND, "collapsed": True}, "porch2": {**SOUND, "collapsed": True}},
-          "events": [Event(3.0, StructureFallen("porch2")), Event(9.0, StructureFallen("porch"))]}, ["porch collapsed at 9.0 s, porch2 collapsed at 3.0 s"], []),
-        ({"snow": True, "snow_mass_kg": 5600.0, "events": [Event(20.2, SnowFallen("", "west", "roof"))]}, ["snow 5.6 t, falling from 20.2 s"], []),
-        ({"record": {"onset_s": 18.8}, "duration_s": 2.0}, ["before strong shaking sets in (18.8 s)"], []),
+        ({"columns": {"total": 90, "fallen": 1}, "events": [Event(20.5, ColumnsLost(1, 90))]
+          }, ["is unsafe: ", "1 fallen of 90 columns, the first at 20.5 s"], []),
+        ({
+            "collapsed": True, "collapse_time_s": 25.0, "tilt_time_s": 22.7, "tilt_direction": "ns",
+            "broken": {"total": 5, "partly_broken": 79}, "columns": {"total": 90, "fallen": 42, "loose": 3}
+        }, [
+            "House B collapsed at 25.0 s", "1/10 N-S at 22.7 s", "5 of 206 joints broken, 79 partly",
+            "42 fallen and 3 loose of 90 columns"
+        ], ["unsafe"]),
+        ({"still_moving": True, "final_amplitude": {"storey1": {"ns": 0.004, "ew": 0.01}}
+          }, ["still moving by ±1/100 E-W"], []),
+        ({
+            "structures": {
+                "main": SOUND, "carport": {**SOUND, "collapsed": True}, "shed": SOUND,
+                "entrance": {**SOUND, "peak_drift": 0.3, "residual_drift": 0.2}
+            }, "events": [Event(21.35, StructureFallen("carport"))]
+        }, ["is undamaged", "carport collapsed at 21.4 s, entrance unsafe and leans (peak drift 1/3)"], ["shed"]),
+        ({
+            "structures": {
+                "main": SOUND, "porch": {**SOUND, "collapsed": True}, "porch2": {**SOUND, "collapsed": True}
+            }, "events": [Event(3.0, StructureFallen("porch2")),
+                          Event(9.0, StructureFallen("porch"))]
+        }, ["porch collapsed at 9.0 s, porch2 collapsed at 3.0 s"], []),
+        ({"snow": True, "snow_mass_kg": 5600.0, "events": [Event(20.2, SnowFallen("", "west", "roof"))]
+          }, ["snow 5.6 t, falling from 20.2 s"], []),
+        ({"record": {"onset_s": 18.8, "strong_end_s": 27.0}, "duration_s": 2.0},
+         ["before strong shaking sets in (18.8 s)"], ["during"]),
+        ({"record": {"onset_s": 18.8, "strong_end_s": 27.0}, "duration_s": 20.0},
+         ["the run ends during the strong shaking (18.8 to 27.0 s)"], ["before strong"]),
+        ({"record": {"onset_s": 18.8, "strong_end_s": 27.0}, "duration_s": 27.0}, [], ["strong shaking"]),
+        ({"record": {"onset_s": 18.8, "strong_end_s": 27.0}, "duration_s": 20.0, "collapsed": True,
+          "collapse_time_s": 19.5}, ["collapsed"], ["strong shaking"]),
+        (drifts(0.00831, 0.0), ["1/121", "below the damage limit of 1/120"], []),
+        (drifts(0.0329, 0.0), ["1/31", "beyond the damage limit of 1/120"], []),
+        (drifts(0.0953, 0.0), ["1/11", "beyond the safety limit of 1/30"], []),
+        (drifts(1 / 120, 0.0), ["1/120 ", "beyond the damage limit"], []),
     ],
 )
 def test_sentence(changes, expected, absent):
     """Peak and residual drift are told apart, partly broken joints are counted."""
     text = sentence(sample_summary(**{**STANDING, **changes}))
-    assert all(part in text for part in expected) and not any(part in text for part in absent) and "\n" not in text, text
+    assert all(part in text
+               for part in expected) and not any(part in text for part in absent) and "\n" not in text, text
 
 
 def test_wall_sheets_are_counted_apart():
@@ -202,7 +244,8 @@ def test_wall_sheets_are_counted_apart():
     joints, counts = survey(run).count_all(), survey(run).count_broken(state, springs=7)
     assert (joints.total, joints.wall_sheets) == (2, 3)
     assert (counts.total, counts.wall_sheets, counts.wall_sheets_partly, counts.partly_broken) == (1, 1, 1, 0)
-    assert "; 1 of 2 joints and 1 of 3 wall sheets broken, 1 partly" in sentence(sample_summary(joints=joints, broken=counts))
+    assert "; 1 of 2 joints and 1 of 3 wall sheets broken, 1 partly" in sentence(
+        sample_summary(joints=joints, broken=counts))
     assert count_apart(run.joints, broken >= run.joints.springs) == ((1, 2), (1, 3))
 
 
@@ -215,8 +258,15 @@ def test_a_house_without_walls_has_no_wall_sheets():
 
 
 @pytest.mark.parametrize("changes, state", [
-    ({}, "undamaged"), ({"peak_drift": 1 / 121}, "undamaged"), ({"peak_drift": 1 / 120}, "repairable"), ({"partly_broken": 1}, "repairable"), ({"broken": 1}, "repairable"),
-    ({"peak_drift": 1 / 31}, "repairable"), ({"peak_drift": 1 / 30}, "unsafe"), ({"columns_lost": 1}, "unsafe"), ({"peak_drift": 1.0, "collapsed": True}, "collapsed"),
+    ({}, "undamaged"),
+    ({"peak_drift": 1 / 121}, "undamaged"),
+    ({"peak_drift": 1 / 120}, "repairable"),
+    ({"partly_broken": 1}, "repairable"),
+    ({"broken": 1}, "repairable"),
+    ({"peak_drift": 1 / 31}, "repairable"),
+    ({"peak_drift": 1 / 30}, "unsafe"),
+    ({"columns_lost": 1}, "unsafe"),
+    ({"peak_drift": 1.0, "collapsed": True}, "collapsed"),
 ])
 def test_verdict(changes, state):
     """Each limit and each kind of damage decides alone; a limit counts as reached at its value."""
@@ -225,8 +275,12 @@ def test_verdict(changes, state):
 
 def test_only_a_standing_house_leans():
     """A peak beyond the tilt is no lean; nor is the rest of a collapsed house."""
-    assert [Structure(**{**SOUND, **changes}).leans for changes in ({"peak_drift": 0.3}, {"residual_drift": 0.11}, {"residual_drift": 0.11, "collapsed": True})] == [False, True, False]
-    assert [limit and limit.name for limit in map(passed, (0.001, 0.01, 0.05, 0.2))] == [None, "damage limit", "safety limit", "tilt"]
+    assert [
+        Structure(**{**SOUND, **changes}).leans
+        for changes in ({"peak_drift": 0.3}, {"residual_drift": 0.11}, {"residual_drift": 0.11, "collapsed": True})
+    ] == [False, True, False]
+    assert [limit and limit.name
+            for limit in map(passed, (0.001, 0.01, 0.05, 0.2))] == [None, "damage limit", "safety limit", "tilt"]
 
 
 def test_damage_by_structure():
@@ -237,7 +291,10 @@ def test_damage_by_structure():
     broken[[3, 7]], broken[5] = 4, 1
     time, state = states(run)[0]
     found = survey(run).by_structure(State(state.position, state.orientation, broken), {"main": 0.1, "carport": 0.0})
-    assert found == {"main": Structure(peak_drift=0.1, broken=1, partly_broken=1, columns_lost=1), "carport": Structure(peak_drift=0.0, broken=1)}
+    assert found == {
+        "main": Structure(peak_drift=0.1, broken=1, partly_broken=1, columns_lost=1), "carport": Structure(
+            peak_drift=0.0, broken=1)
+    }
 
 
 def test_a_summary_is_the_same_after_a_file(tmp_path):
@@ -247,7 +304,9 @@ def test_a_summary_is_the_same_after_a_file(tmp_path):
     event = Event(0.9, OwnWeight(True, {"main": Structure(peak_drift=0.01, broken=3)}))
     found = frames_sample.summary("A").changed(events=[event], joints={"roof_beam": 5, "wall_sheets": 2}, record=None)
     found.write(tmp_path)
-    assert Summary.read(tmp_path) == found and found.joints.others == {"roof_beam": 5} and found.broken.wall_sheets is None
+    assert Summary.read(tmp_path) == found
+    assert found.joints.others == {"roof_beam": 5}
+    assert found.broken.wall_sheets is None
     assert "wall_sheets" not in json.loads((tmp_path / "summary.json").read_text())["broken"]
 
 
@@ -279,5 +338,6 @@ def test_damage_by_the_own_weight_in_the_verdict():
     early = Event(0.9, OwnWeight(False, {"main": Structure(peak_drift=0.01, broken=3)}))
     assert "before the shaking" not in sentence(fallen)
     assert f"; {event(early)}; " in sentence(fallen.changed(events=[*fallen.events, early]))
-    assert "; damaged by its own weight and snow; " in sentence(fallen.changed(earthquake=False, snow=True, snow_mass_kg=1000))
+    assert "; damaged by its own weight and snow; " in sentence(
+        fallen.changed(earthquake=False, snow=True, snow_mass_kg=1000))
     assert "own weight" not in sentence(sample_summary(peak_drift={"storey1": {"ns": 1e-4, "ew": 0.0}}))

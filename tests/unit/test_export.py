@@ -71,7 +71,8 @@ def scene(tmp_path):
     plate = body("plate", timber(OAK, "oak"), fixed=True, kind="floor")
     post = body("post", timber(CEDAR, "cedar"), radius=0.015, kind="column")
     O.dt, O.engines = 1e-4, yt.engines(gravity=GRAVITY)
-    yt.connect(post, plate, POINTS, NORMAL, stiffness=(3e4, 2e4), strength=np.inf, per="joint", kind="foot", name="foot 1")
+    yt.connect(post, plate, POINTS, NORMAL, stiffness=(3e4, 2e4), strength=np.inf, per="joint", kind="foot",
+               name="foot 1")
     torn = yt.connect(plate, post, POINTS[:2], NORMAL, stiffness=(4e4, 5e4), strength=600.0, damping_ratio=0.05)
     torn.broken = [0, 1]
     state = O.bodies[post].state
@@ -87,7 +88,9 @@ def test_head(scene):
 
 def test_materials(scene):
     assert scene["materials"] == {"oak": OAK, "cedar": CEDAR}
-    assert sorted(scene["friction"]) == [["cedar", "cedar", 0.6], ["cedar", "oak", 0.35], ["oak", "oak", 0.35]]  # the smaller one
+    assert sorted(scene["friction"]) == [
+        ["cedar", "cedar", 0.6], ["cedar", "oak", 0.35], ["oak", "oak", 0.35]
+    ]  # the smaller one
 
 
 def test_elements(scene):
@@ -113,14 +116,22 @@ def test_faces_are_closed_and_outward(scene):
         edges = [(a, b) for face in faces for a, b in zip(face, face[1:] + face[:1])]
         assert len(set(edges)) == 24 and set(edges) == {(b, a) for a, b in edges}  # each edge once in either direction
         fans = [places[[face[0], a, b]] for face in faces for a, b in zip(face[1:], face[2:])]
-        assert_close(sum(np.linalg.det(fan - places.mean(0)) for fan in fans) / 6, np.prod(SIZES[element["name"]]), rtol=1e-10)  # > 0: outward
+        assert_close(
+            sum(np.linalg.det(fan - places.mean(0)) for fan in fans) / 6, np.prod(SIZES[element["name"]]),
+            rtol=1e-10)  # > 0: outward
 
 
 def test_joints(scene):
     whole, torn = scene["joints"]
-    described = {"elements": [1, 0], "stiffness": [3e4, 2e4], "strength": None, "reading": "joint", "damping_ratio": 0.0, "broken": [False] * 3, "kind": "foot", "name": "foot 1", "slip": None}
+    described = {
+        "elements": [1, 0], "stiffness": [3e4, 2e4], "strength": None, "reading": "joint", "damping_ratio": 0.0,
+        "broken": [False] * 3, "kind": "foot", "name": "foot 1", "slip": None
+    }
     assert {key: whole[key] for key in described} == described
-    described = {"elements": [0, 1], "stiffness": [4e4, 5e4], "strength": 600.0, "reading": "spring", "damping_ratio": 0.05, "broken": [False, True], "kind": "", "name": "", "slip": None}
+    described = {
+        "elements": [0, 1], "stiffness": [4e4, 5e4], "strength": 600.0, "reading": "spring", "damping_ratio": 0.05,
+        "broken": [False, True], "kind": "", "name": "", "slip": None
+    }
     assert {key: torn[key] for key in described} == described and torn["broken"][1] is True  # no 1
     assert set(whole) == set(torn) == {*described, "points", "normal"}
 
@@ -140,7 +151,8 @@ def test_yielding_joint(tmp_path):
     plate = body("plate", timber(OAK, "oak"), fixed=True)
     O.dt, O.engines = 1e-4, yt.engines()
     joint = yt.connect(post, plate, POINTS[:2], stiffness=(1e5, 1e5), strength=600.0, slip=yt.SlipLaw(0.01, 0.03, 0.25))
-    yt.scene.attributes._update_attributes(joint, {"plasticStretches": [(0.001, 0, 0.002), (0, 0, 0)], "largestStretches": [0.008, 0.001]})
+    yt.scene.attributes._update_attributes(
+        joint, {"plasticStretches": [(0.001, 0, 0.002), (0, 0, 0)], "largestStretches": [0.008, 0.001]})
     O.bodies[post].state.ori = quaternion(LEAN)
     slip = written(tmp_path)["joints"][0]["slip"]
     assert (slip["friction_share"], slip["softening_stretch"], slip["ultimate_stretch"]) == (0.25, 0.01, 0.03)
@@ -153,7 +165,12 @@ def test_names_of_materials(tmp_path):
     """
     O.reset()
     waxed = {**OAK, "friction": 0.25}
-    for k, material in enumerate([timber(OAK, "wood"), timber(OAK, "beam"), timber(waxed, "wood"), yt.timber(), yt.snow(80.0, 3e4, 0.2)]):
+    for k, material in enumerate(
+        [timber(OAK, "wood"),
+         timber(OAK, "beam"),
+         timber(waxed, "wood"),
+         yt.timber(),
+         yt.snow(80.0, 3e4, 0.2)]):
         O.bodies.append(yt.box((1, 1, 1), (2 * k, 0, 0), material=material))
     content = written(tmp_path)
     assert [element["material"] for element in content["elements"]] == ["wood", "wood", "wood'", "timber", "snow"]
@@ -161,7 +178,9 @@ def test_names_of_materials(tmp_path):
     assert content["materials"]["snow"] == {"law": "snow", "stiffness_per_kg": 3e4, "density": 80.0, "friction": 0.2}
     assert content["joints"] == [] and content["gravity"] == [0, 0, 0]  # without engines
     coefficients = {(a, b): c for a, b, c in content["friction"]}
-    assert len(content["friction"]) == len(coefficients) == 10 and coefficients["snow", "wood'"] == 0.2 and coefficients["timber", "wood'"] == 0.25
+    assert len(content["friction"]) == len(coefficients) == 10
+    assert coefficients["snow", "wood'"] == 0.2
+    assert coefficients["timber", "wood'"] == 0.25
 
 
 def test_joint_of_a_body_taken_out(tmp_path):

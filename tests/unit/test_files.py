@@ -9,7 +9,8 @@ import sys
 from pathlib import Path
 
 import pytest
-from yade_timber.base.atomic_write import make_folder, remove, remove_parts, write_text, written_from_memory, written_whole
+from yade_timber.base.atomic_write import (make_folder, remove, remove_parts, write_text, written_from_memory,
+                                           written_whole)
 from yade_timber.base.errors import RunError
 from yade_timber.base.lock import is_locked, locked
 from yade_timber.base.input_file import require_regular
@@ -108,11 +109,15 @@ def test_what_cannot_be_written(tmp_path):
 @pytest.mark.parametrize("path", ["/dev/stdout", "{file}"])
 def test_standard_output(tmp_path, path):
     """What it holds already, and what follows, stays."""
-    script = f"print('before'); from yade_timber.base.atomic_write import write_text; write_text({path.format(file=tmp_path / 'log')!r}, 'x\\n'); print('after')"
+    target = path.format(file=tmp_path / "log")
+    script = ("print('before'); from yade_timber.base.atomic_write import write_text; "
+              f"write_text({target!r}, 'x\\n'); print('after')")
     with open(tmp_path / "log", "w") as log:
         subprocess.run([sys.executable, "-c", script], stdout=log, check=True)
     assert (tmp_path / "log").read_text() == "before\nx\nafter\n"
-    assert subprocess.run([sys.executable, "-c", script.replace(str(tmp_path / "log"), "/dev/stdout")], stdout=subprocess.PIPE).stdout == b"before\nx\nafter\n"
+    assert subprocess.run(
+        [sys.executable, "-c", script.replace(str(tmp_path / "log"), "/dev/stdout")],
+        stdout=subprocess.PIPE).stdout == b"before\nx\nafter\n"
 
 
 def test_folders_are_made_in_folders_only(tmp_path):

@@ -89,7 +89,8 @@ def test_the_ground_moves():
     run.motion.displacement[:] = 0.0
     still = np.array(stage.Stage(run, size, view, camera.sun(points)).picture(0.5))
     columns = [np.flatnonzero((picture.max(2) < 110).any(0)).mean() for picture in (still, moved)]
-    far, near = (seen(view, corner + (0, 1, 0), size)[1] - seen(view, corner, size)[1] for corner in (points[points[:, 0].argmin()], points[points[:, 0].argmax()]))
+    far, near = (seen(view, corner + (0, 1, 0), size)[1] - seen(view, corner, size)[1]
+                 for corner in (points[points[:, 0].argmin()], points[points[:, 0].argmax()]))
     assert far - 1 <= columns[1] - columns[0] <= near + 1  # perspective; whole pixels
 
 
@@ -97,8 +98,12 @@ def test_the_ground_moves():
 def test_a_house_fills_at_least_half_of_the_height(size):
     """House A at the start, beside another one, seen from the north-east."""
     stage = film.Pictures([frames_sample.run()] * 2, "space", film.Format(*size)).stages[0]
-    points = np.concatenate([element.vertices for element in build_house(load_house("A")).elements if element.kind != "ground"])
-    rows = [seen(camera.look("space", points, stage.canvas.size[0] / stage.canvas.size[1]), point, stage.canvas.size)[0] for point in points]
+    points = np.concatenate(
+        [element.vertices for element in build_house(load_house("A")).elements if element.kind != "ground"])
+    rows = [
+        seen(camera.look("space", points, stage.canvas.size[0] / stage.canvas.size[1]), point, stage.canvas.size)[0]
+        for point in points
+    ]
     assert 0 < min(rows) and max(rows) < stage.canvas.size[1] and max(rows) - min(rows) > size[1] / 2
 
 
@@ -159,7 +164,11 @@ def test_mp4_of_two_runs_at_a_quarter_of_the_speed(tmp_path):
     runs = [frames_sample.run(name="A"), frames_sample.run(name="B", until=3.0)]
     form = film.Format(width=320, height=180, rate=10, speed=0.25)
     assert film.write(tmp_path / "x.mp4", runs, "space", form, 2.5, 3.0) == 20
-    words = ["ffprobe", "-v", "error", "-count_frames", "-show_entries", "stream=width,height,nb_read_frames", "-of", "csv=p=0", str(tmp_path / "x.mp4")]
+    words = [
+        "ffprobe", "-v", "error", "-count_frames", "-show_entries", "stream=width,height,nb_read_frames", "-of",
+        "csv=p=0",
+        str(tmp_path / "x.mp4")
+    ]
     assert subprocess.run(words, capture_output=True, text=True).stdout.strip() == "320,180,40"
 
 
@@ -184,9 +193,11 @@ def test_films_that_cannot_be_made(tmp_path):
 
 def test_script(tmp_path):
     frames_sample.write(tmp_path / frames.NAME)
-    done = in_process.run(SCRIPT, tmp_path, "--size", "160x90", "--rate", 5, "--start", 1, "--end", 2, "--out", tmp_path / "x.webp")
+    done = in_process.run(SCRIPT, tmp_path, "--size", "160x90", "--rate", 5, "--start", 1, "--end", 2, "--out",
+                          tmp_path / "x.webp")
     assert done.returncode == 0 and "5 pictures" in done.stdout and (tmp_path / "x.webp").exists()
-    wrong = [("--speed", "0", "0.01 to 20"), ("--size", "10x10", "64 to 4096"), ("--out", "x.gif", ".mp4 or .webp"), ("--end", "0", "no pictures")]
+    wrong = [("--speed", "0", "0.01 to 20"), ("--size", "10x10", "64 to 4096"), ("--out", "x.gif", ".mp4 or .webp"),
+             ("--end", "0", "no pictures")]
     for *words, said in wrong:
         done = in_process.run(SCRIPT, tmp_path, *words)
         assert done.returncode == 1 and said in done.stderr and done.stderr.count("\n") == 1
@@ -198,7 +209,8 @@ def test_origin_names_record_peak_step_and_versions():
     run.version = "9.9"
     text = provenance.provenance(run)
     peak = np.abs(run.motion.acceleration).max() * 100
-    for part in ("Record kobe.csv x 0.5", f"PGA {peak:.0f} gal", "JMA intensity", "time step 0.00025 s", "yade-timber 9.9, YADE 2023.02a"):
+    for part in ("Record kobe.csv x 0.5", f"PGA {peak:.0f} gal", "JMA intensity", "time step 0.00025 s",
+                 "yade-timber 9.9, YADE 2023.02a"):
         assert part in text
 
 

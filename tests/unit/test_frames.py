@@ -164,7 +164,9 @@ def test_pipe(tmp_path):
 
 def test_repr_is_short():
     made = frames()
-    assert all(len(repr(part)) < 300 and "\n" not in repr(part) for part in (made, *(getattr(made, name) for name in ("elements", "joints", "contacts", "motion", "history"))))
+    assert all(
+        len(repr(part)) < 300 and "\n" not in repr(part)
+        for part in (made, *(getattr(made, name) for name in ("elements", "joints", "contacts", "motion", "history"))))
 
 
 def test_corners_move_and_turn():
@@ -179,7 +181,8 @@ def test_corners_of_all_elements_are_those_of_each():
     made = frames()
     numbers = range(len(made.elements.name))
     for frame, single in ((None, made.corners_at_start), (1, lambda k: made.corners(1, k))):
-        assert all(np.array_equal(corners, single(k)) for k, corners in zip(numbers, made.all_corners(frame), strict=True))
+        assert all(
+            np.array_equal(corners, single(k)) for k, corners in zip(numbers, made.all_corners(frame), strict=True))
 
 
 def test_joints_sit_on_their_first_element():

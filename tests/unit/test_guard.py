@@ -40,7 +40,8 @@ def test_record_in_the_file_is_the_loaded_modules_record(record):
 
 
 def test_wrong_version(record, facts):
-    with pytest.raises(ImportError, match=r"built for YADE 2099\.1.*this is YADE " + facts["yade"] + r".*scripts/setup"):
+    with pytest.raises(ImportError,
+                       match=r"built for YADE 2099\.1.*this is YADE " + facts["yade"] + r".*scripts/setup"):
         host.check_build({**record, "yade": "2099.1"}, facts)
 
 
@@ -56,7 +57,8 @@ def test_wrong_features(record, facts):
 
 @pytest.mark.parametrize("shift", [-8, 8, 16])
 def test_shifted_layout(record, facts, shift):
-    with pytest.raises(ImportError, match=r"Body\.id .*" + facts["yade"] + ".*" + record["headers"] + ".*scripts/setup"):
+    with pytest.raises(ImportError,
+                       match=r"Body\.id .*" + facts["yade"] + ".*" + record["headers"] + ".*scripts/setup"):
         host.check_layout(PLUGIN, yade.wrapper, record, facts, shift=shift)
 
 
@@ -166,13 +168,16 @@ def test_servers_are_closed(monkeypatch):
 def test_a_session_without_a_prompt_has_no_ports(options, tmp_path):
     """Importing the package closes them, whatever the script does then."""
     script = tmp_path / "my_scene.py"
-    script.write_text("import os\nimport yade_timber\nfrom ports import listening_ports\nprint('ports', listening_ports())\n"
-                      "os._exit(0)\n")
-    done = subprocess.run(["yade", *options, str(script)], stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60)
+    script.write_text(
+        "import os\nimport yade_timber\nfrom ports import listening_ports\nprint('ports', listening_ports())\n"
+        "os._exit(0)\n")
+    done = subprocess.run(["yade", *options, str(script)], stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                          timeout=60)
     assert "ports []" in done.stdout, done.stdout + done.stderr
 
 
-@pytest.mark.parametrize("terminal, exits, prompt", [(True, False, True), (True, True, False), (False, False, False), (False, True, False)])
+@pytest.mark.parametrize("terminal, exits, prompt", [(True, False, True), (True, True, False), (False, False, False),
+                                                     (False, True, False)])
 def test_who_has_a_prompt(monkeypatch, terminal, exits, prompt):
     monkeypatch.setattr(yade.runtime.opts, "exitAfter", exits)
     monkeypatch.setattr(host.sys, "stdin", SimpleNamespace(isatty=lambda: terminal))

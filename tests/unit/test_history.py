@@ -20,7 +20,8 @@ def history():
 
 def test_columns_have_names(history):
     assert history.samples == 61 and history.storeys == (1,)
-    assert np.array_equal(history.time, np.arange(61) * 0.05) and np.array_equal(history.column("drop1"), history.column("drop1 [m]"))
+    assert np.array_equal(history.time, np.arange(61) * 0.05)
+    assert np.array_equal(history.column("drop1"), history.column("drop1 [m]"))
     assert history.drift(1, "ew")[-1] == 0.5 and history.largest_drift().max() == 0.5
     assert history.energy("ground_motion")[-1] == 100 and not history.energy("broken_springs").any()
     assert [(storey, direction) for storey, direction, _ in history.drifts()] == [(1, "ns"), (1, "ew")]
@@ -38,7 +39,8 @@ def test_written_is_read_back(history, tmp_path):
     history.write(tmp_path / "history.csv")
     read = History.read(tmp_path / "history.csv")
     assert read.columns == history.columns and np.allclose(read.rows, history.rows, rtol=1e-11, atol=0)
-    assert (tmp_path / "history.csv").read_text().splitlines()[1].startswith("0,0,0,") and "-0" not in History(["time [s]"], [-0.0]).text()
+    assert (tmp_path / "history.csv").read_text().splitlines()[1].startswith("0,0,0,")
+    assert "-0" not in History(["time [s]"], [-0.0]).text()
 
 
 def test_repr_is_short(history):
@@ -47,7 +49,8 @@ def test_repr_is_short(history):
 
 @pytest.mark.parametrize(
     "content, place",
-    [("", "history.csv: "), ("time [s],a\n0,1\n0,word\n", "history.csv:3: "), ("time [s],a\n0\n", "history.csv:2: "), ("a,b\n0,1\n", "history.csv:1: "), (b"\xff\xfe", "history.csv: ")],
+    [("", "history.csv: "), ("time [s],a\n0,1\n0,word\n", "history.csv:3: "), ("time [s],a\n0\n", "history.csv:2: "),
+     ("a,b\n0,1\n", "history.csv:1: "), (b"\xff\xfe", "history.csv: ")],
 )
 def test_damaged_files(tmp_path, content, place):
     path = tmp_path / "history.csv"
@@ -70,7 +73,9 @@ def test_no_regular_file(tmp_path):
 
 def of_drift(values, step=0.01):
     """History whose N-S drift of the first storey has these values, the E-W drift being zero."""
-    return History(["time [s]", "drift_ns1 [-]", "drift_ew1 [-]"], np.column_stack([step * np.arange(len(values)), values, np.zeros(len(values))]))
+    return History(["time [s]", "drift_ns1 [-]", "drift_ew1 [-]"],
+                   np.column_stack([step * np.arange(len(values)), values,
+                                    np.zeros(len(values))]))
 
 
 @pytest.mark.parametrize("phase", np.linspace(0, 2 * np.pi, 9))
@@ -130,7 +135,8 @@ def test_a_fall_is_still_moving():
 
 
 def test_by_storey():
-    assert drift.by_storey([0.1, 0.2, math.nan, 0.4]) == {"storey1": {"ns": 0.1, "ew": 0.2}, "storey2": {"ns": None, "ew": 0.4}}
+    assert drift.by_storey([0.1, 0.2, math.nan,
+                            0.4]) == {"storey1": {"ns": 0.1, "ew": 0.2}, "storey2": {"ns": None, "ew": 0.4}}
     assert drift.by_storey([])["storey2"] == {"ns": None, "ew": None}
 
 

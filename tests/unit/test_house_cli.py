@@ -25,7 +25,8 @@ def read(*words):
 def test_a_file_by_itself(own):
     """Snow of the file, no earthquake; results under the file's name."""
     scenario, options = read(own)
-    assert (scenario.name, scenario.house, scenario.motion, scenario.snow_depth, scenario.duration) == ("my.house", str(own), None, 0.7, QUIET_DURATION)
+    assert (scenario.name, scenario.house, scenario.motion, scenario.snow_depth,
+            scenario.duration) == ("my.house", str(own), None, 0.7, QUIET_DURATION)
     assert str(options.folder) == "results/my.house"
 
 
@@ -75,5 +76,6 @@ def test_a_mistake_in_the_file(own, capsys, tmp_path):
     with pytest.raises(SystemExit) as stop:
         main_house(["scripts/house.py", str(own), "--out", str(tmp_path / "out")])
     assert stop.value.code == 1
-    assert capsys.readouterr().err == "error: my.house.yaml:4: house: unknown key 'structurs', did you mean 'structures'?\n"
+    assert capsys.readouterr(
+    ).err == "error: my.house.yaml:4: house: unknown key 'structurs', did you mean 'structures'?\n"
     assert not (tmp_path / "out").exists()

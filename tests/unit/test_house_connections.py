@@ -33,7 +33,11 @@ def of_kind(model, kind):
 
 def test_rules_are_added_changed_and_removed_by_name(tmp_path):
     shipped = build_house(load_house("B")).counts()["joints_by_kind"]
-    more = built(tmp_path, "joints: {slabs: {between: [floor, column], type: corner_fitting, kind: slab_column}, column_ends: {between: [column, [foundation, beam]]}}").counts()["joints_by_kind"]
+    more = built(
+        tmp_path,
+        "joints: {slabs: {between: [floor, column], type: corner_fitting, kind: slab_column}, column_ends: {between: "
+        "[column, [foundation, beam]]}}"
+    ).counts()["joints_by_kind"]
     less = built(tmp_path, "joints: {ridges: null}").counts()["joints_by_kind"]
     renamed = built(tmp_path, "joints: {floors: {kind: slab}}").counts()["joints_by_kind"]
     moved = more.pop("slab_column")
@@ -77,5 +81,6 @@ def test_damping_of_the_law_and_of_a_type(tmp_path):
 def test_values_of_the_slip_law_reach_the_joint(tmp_path):
     slip = "law: slip, friction_share: 0.3, softening_stretch: 0.15, ultimate_stretch: 0.2"
     joint = of_kind(built(tmp_path, f"joint_types: {{corner_fitting: {{{slip}}}}}"), "column_beam")[0]
-    assert (joint.law, joint.friction_share, joint.softening_stretch, joint.ultimate_stretch) == ("slip", 0.3, 0.15, 0.2)
+    assert (joint.law, joint.friction_share, joint.softening_stretch,
+            joint.ultimate_stretch) == ("slip", 0.3, 0.15, 0.2)
     assert of_kind(build_house(load_house("B")), "column_beam")[0].law == "brittle"

@@ -78,17 +78,22 @@ def test_structures_are_not_jointed_to_each_other(tmp_path):
     start, end = STOREHOUSE.index("  store:"), STOREHOUSE.index("joint_types:")
     second = STOREHOUSE[start:end].replace("store:", "annex:").replace("origin: [0, 0]", "beside: store, gap: 0")
     ties = "  ties: {between: [roof, roof], type: peg, kind: roof_roof}\nsnow:"
-    model = build(tmp_path, (STOREHOUSE[:end] + second + STOREHOUSE[end:]).replace("snow:", ties, 2).replace(ties, "snow:", 1))
+    model = build(tmp_path, (STOREHOUSE[:end] + second + STOREHOUSE[end:]).replace("snow:", ties, 2).replace(
+        ties, "snow:", 1))
     assert model.counts()["joints_by_kind"] == {"column_beam": 24, "brace_beam": 4, "beam_beam": 8}
 
 
 def test_joint_types_override_the_joint_reading(tmp_path):
     text = STOREHOUSE + "law: {joint_reading: joint}\n"
     assert {joint.per for joint in build(tmp_path, text).joints} == {"joint"}
-    assert {joint.per for joint in build(tmp_path, text.replace("strength: 2000", "strength: 2000, per: spring")).joints} == {"spring"}
+    assert {
+        joint.per
+        for joint in build(tmp_path, text.replace("strength: 2000", "strength: 2000, per: spring")).joints
+    } == {"spring"}
 
 
-MISTAKES = {  # mistake: (old text, new text, line of the new text that the message names, members and values in the message)
+# mistake: (old text, new text, line of the new text that the message names, members and values in the message)
+MISTAKES = {
     "syntax": ("place: {origin: [0, 0]}", "place: {origin: [0, 0}", 10, []),
     "unknown key": ("section: 0.1", "secton: 0.1", 22, ["columns[1]", "'secton'", "'section'"]),
     "missing key": ("    margin: 0.1\n", "", 10, ["structures.store", "'margin'"]),
@@ -100,59 +105,96 @@ MISTAKES = {  # mistake: (old text, new text, line of the new text that the mess
     "unknown layer": ("layer: columns", "layer: column", 18, ["stack[2].layer", "'column'", "'columns'"]),
     "unknown roof": ("type: flat", "type: thatch", 20, ["stack[4].type", "'thatch'", "hip, gable, mono, flat"]),
     "unknown direction": ("along: x, at: 0", "along: z, at: 0", 25, ["braces.lines[1].along", "'z'", "x, y"]),
-    "unknown joint type": ("type: peg, kind: column_beam", "type: pegg, kind: column_beam", 29, ["joints.column_ends.type", "'pegg'", "'peg'"]),
-    "unknown material": ("{layer: columns, height: 2}", "{layer: columns, height: 2, material: steel}", 18, ["stack[2].material", "'steel'", "timber, snow"]),
+    "unknown joint type": ("type: peg, kind: column_beam", "type: pegg, kind: column_beam", 29,
+                           ["joints.column_ends.type", "'pegg'", "'peg'"]),
+    "unknown material": ("{layer: columns, height: 2}", "{layer: columns, height: 2, material: steel}", 18,
+                         ["stack[2].material", "'steel'", "timber, snow"]),
     "unknown friction pair": ("between: [timber, timber]", "between: [timber, ice]", 6, ["friction[1]", "'ice'"]),
-    "two column forms": ("section: 0.1, grid", "section: 0.1, at: [[0, 0]], grid", 22, ["columns[1]", "at, grid, lines", "at and grid"]),
+    "two column forms": ("section: 0.1, grid", "section: 0.1, at: [[0, 0]], grid", 22,
+                         ["columns[1]", "at, grid, lines", "at and grid"]),
     "no list": ("runs: [[0, 1]]", "runs: 3", 25, ["lines[1].runs", "got 3"]),
     "wrong length": ("runs: [[0, 1]]", "runs: [[0, 1, 2]]", 25, ["lines[1].runs[1]", "2 items", "3"]),
     "outside the grid": ("x: [0, 1, 2], y: [0, 1]", "x: [0, 1, 3], y: [0, 1]", 22, ["store", "x node 3", "0 to 2"]),
     "line backwards": ("at: [0, 1], from: 0, to: 2", "at: [0, 1], from: 2, to: 0", 14, ["store", "from 2 to 0"]),
+    "positions and count": ("positions: [0, 1.5]", "positions: [0, 1.5], count: 2", 11, ["grid.y.count", "no effect"]),
     "positions not rising": ("[0, 1.5]", "[1.5, 0]", 11, ["grid.y.positions"]),
     "second column": ("x: [0, 1, 2], y: [0, 1]", "x: [0, 1, 2, 2], y: [0, 1]", 22, ["store", "x 2, y 0", "storey 1"]),
     "no such storey": ("section: 0.1, grid", "section: 0.1, storeys: 2, grid", 22, ["columns[1]", "storey 2", "[1]"]),
     "brace without a column": ("runs: [[0, 1]]", "runs: [[0, 0.5]]", 25, ["store", "[0, 0.5]", "node 0.5", "0, 1, 2"]),
     "brace over a column": ("runs: [[0, 1]]", "runs: [[0, 2]]", 25, ["store", "[0, 2]", "node 1"]),
-    "shift of an origin": ("place: {origin: [0, 0]}", "place: {origin: [0, 0], shift: 3}", 10, ["place.shift", "origin"]),
+    "shift of an origin": ("place: {origin: [0, 0]}", "place: {origin: [0, 0], shift: 3}", 10,
+                           ["place.shift", "origin"]),
     "brace on the spot": ("runs: [[0, 1]]", "runs: [[1, 1]]", 25, ["store", "[1, 1]"]),
     "brace off the lines": ("along: x, at: 0, runs", "along: x, at: 0.5, runs", 25, ["store", "node 0.5", "none"]),
-    "column on nothing": ("x: [0, 1, 2], y: [0, 1]", "x: [0, 1, 2], y: [0, 0.5, 1]", 22, ["column store.column1.x1y0.5", "x 1.000, y 0.750, z 0.100"]),
+    "column on nothing": ("x: [0, 1, 2], y: [0, 1]", "x: [0, 1, 2], y: [0, 0.5, 1]", 22,
+                          ["column store.column1.x1y0.5", "x 1.000, y 0.750, z 0.100"]),
     "overlapping lines": ("to: 1, cut: true", "to: 1", 15, ["sill", "100 mm", "x 0.000, y 0.000"]),
-    "overlapping braces": ("runs: [[0, 1]]", "runs: [[0, 1], [1, 0]]", 25, ["store.brace1.EW.y0.1-0", "store.brace1.EW.y0.0-1"]),
-    "roof not last": ("type: flat, thickness: 0.1}\n", "type: flat, thickness: 0.1}\n      - {layer: floor, thickness: 0.1}\n", 21, ["stack[5]"]),
-    "too much damage": ("snow: {depth: 0.5}", "damage: {regions: [{side: east, storey: 1, column_beam: {count: 3}}]}", 32, ["damage.regions[1].column_beam", "3 joints", "has 2 whole ones at the bottom"]),
-    "damage to nowhere": ("snow: {depth: 0.5}", "damage: {regions: [{structure: barn, side: east, storey: 1}]}", 32, ["damage.regions[1].structure", "'barn'", "store"]),
+    "overlapping braces": ("runs: [[0, 1]]", "runs: [[0, 1], [1, 0]]", 25,
+                           ["store.brace1.EW.y0.1-0", "store.brace1.EW.y0.0-1"]),
+    "roof not last": ("type: flat, thickness: 0.1}\n",
+                      "type: flat, thickness: 0.1}\n      - {layer: floor, thickness: 0.1}\n", 21, ["stack[5]"]),
+    "too much damage": ("snow: {depth: 0.5}", "damage: {regions: [{side: east, storey: 1, column_beam: {count: 3}}]}",
+                        32, ["damage.regions[1].column_beam", "3 joints", "has 2 whole ones at the bottom"]),
+    "damage to nowhere": ("snow: {depth: 0.5}", "damage: {regions: [{structure: barn, side: east, storey: 1}]}", 32,
+                          ["damage.regions[1].structure", "'barn'", "store"]),
     "snow too deep": ("depth: 0.5", "depth: 50", 32, ["snow.depth", "[0, 20] m"]),
-    "section in mm": ("section: 0.1, grid", "section: 105, grid", 22, ["columns[1].section", "(0.01, 1] m", "105 mm = 0.105"]),
-    "height in mm": ("layer: columns, height: 2", "layer: columns, height: 2000", 18, ["stack[2].height", "(0.1, 20] m", "2000 mm = 2 or 2000 cm = 20"]),
+    "section in mm": ("section: 0.1, grid", "section: 105, grid", 22,
+                      ["columns[1].section", "(0.01, 1] m", "105 mm = 0.105"]),
+    "height in mm": ("layer: columns, height: 2", "layer: columns, height: 2000", 18,
+                     ["stack[2].height", "(0.1, 20] m", "2000 mm = 2 or 2000 cm = 20"]),
     "module in mm": ("module: 1, count: 2", "module: 910, count: 2", 11, ["grid.x.module", "910 mm = 0.91"]),
-    "density in g/cm3": ("density: 400", "density: 0.4", 3, ["materials.timber.density", "[20, 30000] kg/m3", "0.4 g/cm3 = 400"]),
-    "modulus in GPa": ("young: 9e9", "young: 9", 3, ["materials.timber.young", "[1e+06, 1e+12] Pa", "9 MPa = 9e+06 or 9 GPa = 9e+09"]),
+    "density in g/cm3": ("density: 400", "density: 0.4", 3,
+                         ["materials.timber.density", "[20, 30000] kg/m3", "0.4 g/cm3 = 400"]),
+    "modulus in GPa": ("young: 9e9", "young: 9", 3,
+                       ["materials.timber.young", "[1e+06, 1e+12] Pa", "9 MPa = 9e+06 or 9 GPa = 9e+09"]),
     "stiffness in kN/m": ("kn: 1e5", "kn: 100", 27, ["joint_types.peg.kn", "[1000, 1e+12] N/m", "100 kN/m = 100000"]),
     "strength in kN": ("strength: 2000", "strength: 2", 27, ["joint_types.peg.strength", "2 kN = 2000"]),
-    "pitch in sun": ("type: flat, thickness: 0.1", "type: gable, pitch: 4, thickness: 0.1", 20, ["stack[4].pitch", "[0.02, 3] rise over run", "4 sun (tenths) = 0.4"]),
-    "pitch and height": ("type: flat, thickness: 0.1", "type: gable, pitch: 0.4, ridge_height: 4, thickness: 0.1", 20, ["stack[4]", "pitch, ridge_height", "pitch and ridge_height"]),
-    "no pitch": ("type: flat, thickness: 0.1", "type: gable, thickness: 0.1", 20, ["stack[4]", "pitch, ridge_height", "none"]),
+    "pitch in sun": ("type: flat, thickness: 0.1", "type: gable, pitch: 4, thickness: 0.1", 20,
+                     ["stack[4].pitch", "[0.02, 3] rise over run", "4 sun (tenths) = 0.4"]),
+    "pitch and height": ("type: flat, thickness: 0.1", "type: gable, pitch: 0.4, ridge_height: 4, thickness: 0.1", 20,
+                         ["stack[4]", "pitch, ridge_height", "pitch and ridge_height"]),
+    "no pitch": ("type: flat, thickness: 0.1", "type: gable, thickness: 0.1", 20,
+                 ["stack[4]", "pitch, ridge_height", "none"]),
     "snow on no roof": ("type: flat, thickness: 0.1", "type: flat, thickness: 0.1, snow: false", 32, ["snow", "0.5 m"]),
-    "two roofs in one place": ("{layer: roof, type: flat, thickness: 0.1}", "{layer: roof, type: flat, thickness: 0.1}\n      - {layer: roof, type: flat, thickness: 0.2, snow: false}", 21, ["store.roof2", "store.roof1"]),
-    "empty area": ("type: flat, thickness: 0.1", "type: flat, thickness: 0.1, area: {x: [1, 1], y: [0, 1]}", 20, ["store", "x node 1"]),
-    "beam in the air": ("  beams: {between: [beam, beam], type: peg, kind: beam_beam}\n", "", 15, ["beam store.beam1.NS.x0.1", "x 0.000, y 0.750, z 2.100", "1 more"]),
+    "two roofs in one place": ("{layer: roof, type: flat, thickness: 0.1}",
+                               "{layer: roof, type: flat, thickness: 0.1}\n      - {layer: roof, type: flat, "
+                               "thickness: 0.2, snow: false}", 21, ["store.roof2", "store.roof1"]),
+    "empty area": ("type: flat, thickness: 0.1", "type: flat, thickness: 0.1, area: {x: [1, 1], y: [0, 1]}", 20,
+                   ["store", "x node 1"]),
+    "beam in the air": ("  beams: {between: [beam, beam], type: peg, kind: beam_beam}\n", "", 15,
+                        ["beam store.beam1.NS.x0.1", "x 0.000, y 0.750, z 2.100", "1 more"]),
     "list of rules": ("  column_ends: {between", "  - {between", 30, ["not valid YAML"]),
-    "two rules for a pair": ("snow: {depth: 0.5}", "  posts: {between: [sill, column], type: peg, kind: column_beam}", 32,
+    "two rules for a pair": ("snow: {depth: 0.5}", "  posts: {between: [sill, column], type: peg, kind: column_beam}",
+                             32,
                              ["joints.posts", "joins column and sill as joints.column_ends", "null"]),
-    "kind of a wall": ("kind: brace_beam", "kind: wall_beam", 30, ["joints.brace_ends.kind", "'wall_beam'", "sheathed walls"]),
-    "slip key without slip": ("strength: 2000", "strength: 2000, friction_share: 0.2", 27, ["joint_types.peg", "'friction_share'", "law: slip"]),
-    "slip without stretches": ("strength: 2000", "strength: 2000, law: slip, friction_share: 0.2", 27, ["joint_types.peg", "'softening_stretch'"]),
-    "slip with two stiffnesses": ("ks: 1e5, strength: 2000", "ks: 2e5, strength: 2000, law: slip, friction_share: 0, softening_stretch: 0.1, ultimate_stretch: 0.2", 27,
+    "kind of a wall": ("kind: brace_beam", "kind: wall_beam", 30,
+                       ["joints.brace_ends.kind", "'wall_beam'", "sheathed walls"]),
+    "slip key without slip": ("strength: 2000", "strength: 2000, friction_share: 0.2", 27,
+                              ["joint_types.peg", "'friction_share'", "law: slip"]),
+    "slip without stretches": ("strength: 2000", "strength: 2000, law: slip, friction_share: 0.2", 27,
+                               ["joint_types.peg", "'softening_stretch'"]),
+    "slip with two stiffnesses": ("ks: 1e5, strength: 2000",
+                                  "ks: 2e5, strength: 2000, law: slip, friction_share: 0, softening_stretch: 0.1, "
+                                  "ultimate_stretch: 0.2", 27,
                                   ["joint_types.peg.ks", "100000"]),
-    "slip stretches descend": ("strength: 2000", "strength: 2000, law: slip, friction_share: 0, softening_stretch: 0.01, ultimate_stretch: 0.2", 27,
+    "slip stretches descend": ("strength: 2000",
+                               "strength: 2000, law: slip, friction_share: 0, softening_stretch: 0.01, "
+                               "ultimate_stretch: 0.2", 27,
                                ["joint_types.peg", "0.02 m", "must ascend"]),
-    "share above one": ("type: peg, kind: brace_beam", "type: peg, kind: brace_beam, share: 1.5", 30, ["joints.brace_ends.share", "[0.01, 1]", "1.5"]),
-    "joints forgotten": ("  brace_ends: {between: [brace, [sill, beam]], type: peg, kind: brace_beam}\n", "", 25, ["brace store.brace1.EW.y0.0-1", "bottom", "22.2 cm2", "sill store.sill.EW.y0", "joint_search.min_area"]),
-    "brace without a sill": ("along: x, at: 0, runs", "along: y, at: 1, runs", 25, ["brace store.brace1.NS.x1.0-1", "z 0.100"]),
-    "column without a beam": ("height: 0.1, width: 0.1}\n      - {layer: roof", "height: 0.1, width: 0.1, lines: [{along: x, at: 0, from: 0, to: 2}]}\n      - {layer: roof", 22, ["column store.column1.x0y1", "z 2.100"]),
-    "impossible friction": ("between: [timber, timber], coefficient: 0.5", "between: [timber, snow], coefficient: 0.7", 6, ["friction of timber and snow", "0.7", "0.5"]),
-    "damage to no side": ("snow: {depth: 0.5}", "damage: {regions: [{side: easst, storey: 1}]}", 32, ["damage.regions[1].side", "'easst'", "'east'"]),
+    "share above one": ("type: peg, kind: brace_beam", "type: peg, kind: brace_beam, share: 1.5", 30,
+                        ["joints.brace_ends.share", "[0.01, 1]", "1.5"]),
+    "joints forgotten": ("  brace_ends: {between: [brace, [sill, beam]], type: peg, kind: brace_beam}\n", "", 25,
+                         ["brace store.brace1.EW.y0.0-1", "bottom", "22.2 cm2", "sill store.sill.EW.y0",
+                          "joint_search.min_area"]),
+    "brace without a sill": ("along: x, at: 0, runs", "along: y, at: 1, runs", 25,
+                             ["brace store.brace1.NS.x1.0-1", "z 0.100"]),
+    "column without a beam": ("height: 0.1, width: 0.1}\n      - {layer: roof",
+                              "height: 0.1, width: 0.1, lines: [{along: x, at: 0, from: 0, to: 2}]}\n      - {layer: "
+                              "roof", 22, ["column store.column1.x0y1", "z 2.100"]),
+    "impossible friction": ("between: [timber, timber], coefficient: 0.5", "between: [timber, snow], coefficient: 0.7",
+                            6, ["friction of timber and snow", "0.7", "0.5"]),
+    "damage to no side": ("snow: {depth: 0.5}", "damage: {regions: [{side: easst, storey: 1}]}", 32,
+                          ["damage.regions[1].side", "'easst'", "'east'"]),
     "no storey": ("      - {layer: columns, height: 2}\n", "", 20, ["structures.store.columns"]),
     "ground too small": ("ground: {size: 10", "ground: {size: 1.5", 7, ["ground.size", "1.5 m", "2.2"]),
     "name with a blank": ("  store:", "  the store:", 9, ["structures", "'the store'"]),
@@ -192,12 +234,15 @@ def test_mistake(tmp_path, mistake):
 
 def test_align_mistake(tmp_path):
     start, end = STOREHOUSE.index("  store:"), STOREHOUSE.index("joint_types:")
-    annex = STOREHOUSE[start:end].replace("store:", "annex:").replace("origin: [0, 0]", "beside: store, side: east, align: west")
-    assert "structures.annex.place.align: on the east side, align north or south" in message(tmp_path, STOREHOUSE[:end] + annex + STOREHOUSE[end:])
+    annex = STOREHOUSE[start:end].replace("store:",
+                                          "annex:").replace("origin: [0, 0]", "beside: store, side: east, align: west")
+    assert "structures.annex.place.align: on the east side, align north or south" in message(
+        tmp_path, STOREHOUSE[:end] + annex + STOREHOUSE[end:])
 
 
 def test_hip_roof_mistakes(tmp_path):
-    hip = STOREHOUSE.replace("type: flat, thickness: 0.1", "type: hip, thickness: 0.1, ridge_height: 2.0, corner_cut: 0.1")
+    hip = STOREHOUSE.replace("type: flat, thickness: 0.1",
+                             "type: hip, thickness: 0.1, ridge_height: 2.0, corner_cut: 0.1")
     assert "the ridge (2 m) must lie above the eaves (2.2 m)" in message(tmp_path, hip)
     assert "corner_cut must be below" in message(tmp_path, hip.replace("2.0, corner_cut: 0.1", "3.0, corner_cut: 0.9"))
 
@@ -251,27 +296,43 @@ def laughs():
     return "\n".join(["a0: &a0 [x]", *rows]) + "\n"
 
 
+def fine_grid():
+    """The storehouse with columns 1 mm apart and without braces."""
+    nodes = "x: {}, y: {}".format(*([i / 1000 for i in range(count)] for count in (40, 20)))
+    text = STOREHOUSE.replace("{x: [0, 1, 2], y: [0, 1]}", f"{{{nodes}}}")
+    return text.replace("at: 0, runs: [[0, 1]]", "at: 0, runs: []")
+
+
 def with_grid(nodes):
     """The storehouse on a grid of nodes x nodes with a column at each."""
-    text = STOREHOUSE.replace("{module: 1, count: 2}, y: {positions: [0, 1.5]}", f"{{module: 1, count: {nodes}}}, y: {{module: 1, count: {nodes}}}").replace("size: 10", "size: 900")
-    return text.replace("grid: {x: [0, 1, 2], y: [0, 1]}", f"grid: {{x: {list(range(nodes))}, y: {list(range(nodes))}}}")
+    text = STOREHOUSE.replace("{module: 1, count: 2}, y: {positions: [0, 1.5]}",
+                              f"{{module: 1, count: {nodes}}}, y: {{module: 1, count: {nodes}}}").replace(
+                                  "size: 10", "size: 900")
+    return text.replace("grid: {x: [0, 1, 2], y: [0, 1]}",
+                        f"grid: {{x: {list(range(nodes))}, y: {list(range(nodes))}}}")
 
 
 LIMITS = {  # file: (text, place, limit in the message)
     "billion laughs": (laughs, "store.yaml:1", limits.MAX_NODES),
-    "quadratic aliases": (lambda: f"a: &a [{', '.join('x' * 5000)}]\nb: [{', '.join(['*a'] * 5000)}]\n", "store.yaml:", limits.MAX_NODES),
+    "quadratic aliases": (lambda: f"a: &a [{', '.join('x' * 5000)}]\nb: [{', '.join(['*a'] * 5000)}]\n", "store.yaml:",
+                          limits.MAX_NODES),
     "an alias of itself": (lambda: "a: &a [*a]\n", "store.yaml:1", limits.MAX_DEPTH),
     "20 MB": (lambda: "a: [" + "1," * 10_000_000 + "]", "store.yaml", limits.MAX_FILE_SIZE / 1e6),
     "100 000 keys": (lambda: "".join(f"k{i}: 1\n" for i in range(30_000)), "store.yaml:10000", limits.MAX_NODES),
-    "400 000 digits": (lambda: STOREHOUSE.replace("count: 2", f"count: {'1' * 400_000}"), "store.yaml:11", limits.MAX_NUMBER_LENGTH),
+    "400 000 digits": (lambda: STOREHOUSE.replace("count: 2", f"count: {'1' * 400_000}"), "store.yaml:11",
+                       limits.MAX_NUMBER_LENGTH),
     "200 000 levels": (lambda: nested(200_000), "store.yaml:1", limits.MAX_DEPTH),
     "levels of keys": (lambda: "? " * 100_000, "store.yaml:1", limits.MAX_DEPTH),
-    "positions": (lambda: STOREHOUSE.replace("[0, 1.5]", str(list(range(9000)))), "store.yaml:11: structures.store.grid.y.positions", 400),
-    "braces": (lambda: STOREHOUSE.replace("at: 0, runs: [[0, 1]]", f"at: {[0] * 300}, runs: {[[0, 1]] * 900}"), "store.yaml:25: structures.store", limits.MAX_ELEMENTS),
-    "columns on 200 x 200 nodes": (lambda: with_grid(200), "store.yaml:22: structures.store.columns[1]", limits.MAX_ELEMENTS),
-    "columns 1 mm apart": (lambda: STOREHOUSE.replace("{x: [0, 1, 2], y: [0, 1]}", f"{{x: {[i / 1000 for i in range(40)]}, y: {[i / 1000 for i in range(20)]}}}").replace("at: 0, runs: [[0, 1]]", "at: 0, runs: []"),
-                           "store.yaml:22: column", limits.MAX_PAIRS),
-    "storeys": (lambda: STOREHOUSE.replace("      - {layer: columns, height: 2}\n", "      - {layer: columns, height: 2}\n" * 21), "store.yaml:38: structures.store.stack[22]", 20),
+    "positions": (lambda: STOREHOUSE.replace("[0, 1.5]", str(list(range(9000)))),
+                  "store.yaml:11: structures.store.grid.y.positions", 400),
+    "braces": (lambda: STOREHOUSE.replace("at: 0, runs: [[0, 1]]", f"at: {[0] * 300}, runs: {[[0, 1]] * 900}"),
+               "store.yaml:25: structures.store", limits.MAX_ELEMENTS),
+    "columns on 200 x 200 nodes": (lambda: with_grid(200), "store.yaml:22: structures.store.columns[1]",
+                                   limits.MAX_ELEMENTS),
+    "columns 1 mm apart": (fine_grid, "store.yaml:22: column", limits.MAX_PAIRS),
+    "storeys": (lambda: STOREHOUSE.replace("      - {layer: columns, height: 2}\n",
+                                           "      - {layer: columns, height: "
+                                           "2}\n" * 21), "store.yaml:38: structures.store.stack[22]", 20),
 }
 
 
@@ -293,7 +354,8 @@ def test_a_chain_of_3000_files(tmp_path):
 
 
 def test_an_error_in_an_extended_file_names_that_file(tmp_path):
-    (tmp_path / "paper.yaml").write_text((SHIPPED / "paper.yaml").read_text().replace("margin: 0.075 ", "margin: -1 ", 1))
+    (tmp_path / "paper.yaml").write_text((SHIPPED / "paper.yaml").read_text().replace(
+        "margin: 0.075 ", "margin: -1 ", 1))
     text = message(tmp_path, "extends: paper.yaml\nname: mine\n")
     assert text.startswith("paper.yaml:") and "structures.main.margin" in text
 

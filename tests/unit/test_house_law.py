@@ -18,7 +18,8 @@ def built(tmp_path, law):
     loop = engines.find_engine(yw.ContactLoop).loop
     O.step()
     points = sum(len(i.geom.points) for i in O.interactions if i.isReal)
-    return loop.geomDispatcher.functors[0], loop.lawDispatcher.functors[0], points, identity(made_from(RunOptions(house=str(path))))
+    return loop.geomDispatcher.functors[0], loop.lawDispatcher.functors[0], points, identity(
+        made_from(RunOptions(house=str(path))))
 
 
 def test_default_friction():
@@ -31,7 +32,8 @@ def test_defaults(tmp_path):
     assert (geometry.flushSupports, geometry.vertexEdge, law.increment) == (True, False, False)
 
 
-@pytest.mark.parametrize("entry, attribute", [("flush_supports: false", "flushSupports"), ("vertex_edge_contacts: true", "vertexEdge")])
+@pytest.mark.parametrize("entry, attribute", [("flush_supports: false", "flushSupports"),
+                                              ("vertex_edge_contacts: true", "vertexEdge")])
 def test_contact_patterns(tmp_path, entry, attribute):
     """The identity differs, so a checkpoint of one variant is refused by a run of the other."""
     plain, _, _, one = built(tmp_path, "{}")

@@ -55,7 +55,8 @@ def test_weight_without_loads(tmp_path):
     storeys = found["storeys"]["box"]
     assert found["floor_area_m2"] == 24 and found["snow_kn"] == 0
     assert found["total_kn"] == pytest.approx((floor + roof + first + second + low + high) * G / 1000, abs=1e-3)
-    assert storeys["2"] == {"level_kn": pytest.approx((second / 2 + high + roof) * G / 1000, abs=1e-3), "carried_kn": storeys["2"]["level_kn"]}
+    assert storeys["2"] == {"level_kn": pytest.approx((second / 2 + high + roof) * G / 1000, abs=1e-3),
+                            "carried_kn": storeys["2"]["level_kn"]}
     assert storeys["1"]["carried_kn"] == pytest.approx(found["total_kn"] - first / 2 * G / 1000, abs=2e-3)
     assert found["per_floor_area_kn_m2"] == pytest.approx(found["total_kn"] / 24, abs=1e-3)
     assert sentence(found).startswith(f"weighs {found['total_kn']:.0f} kN")
@@ -66,7 +67,8 @@ def test_loads_replace_slabs_and_are_added_to_columns(tmp_path):
     at either end.
     """
     bare, loaded = box(tmp_path), box(tmp_path, "loads: {roof: 0.9, floor: 1.5, wall: 0.64}\n")
-    assert sum(e.mass for e in loaded.of_kind("roof")) == pytest.approx(0.9 * 4.12 * 3.12 * 1.25**0.5 * 1000 / G, rel=1e-9)
+    assert sum(e.mass
+               for e in loaded.of_kind("roof")) == pytest.approx(0.9 * 4.12 * 3.12 * 1.25**0.5 * 1000 / G, rel=1e-9)
     assert sum(e.mass for e in loaded.of_kind("floor")) == pytest.approx(1.5 * 4.12 * 3.12 * 1000 / G, rel=1e-9)
     walls = sum(e.mass for e in loaded.of_kind("column")) - sum(e.mass for e in bare.of_kind("column"))
     height = 2.5 + 0.2 + 0.1 + 2.4 + 0.15
@@ -80,11 +82,16 @@ def test_loads_replace_slabs_and_are_added_to_columns(tmp_path):
 
 def test_a_structure_overrides_the_loads_of_the_house(tmp_path):
     path = tmp_path / "tiled.yaml"
-    path.write_text("extends: C\nname: tiled\nloads: {roof: 0.9, wall: 0.6}\nstructures: {entrance: {loads: {roof: 0.3, wall: 0}}}\n")
+    path.write_text(
+        "extends: C\nname: tiled\nloads: {roof: 0.9, wall: 0.6}\nstructures: {entrance: {loads: {roof: 0.3, wall: "
+        "0}}}\n"
+    )
     model, bare = build_house(load_house(path)), build_house(load_house("C"))
     roof, = model.of_kind("roof", group="entrance")
     assert roof.mass == pytest.approx(0.3 * roof.volume / 0.12 * 1000 / G)
-    assert [e.mass for e in model.of_kind("column", group="entrance")] == [e.mass for e in bare.of_kind("column", group="entrance")]
+    assert [e.mass for e in model.of_kind("column", group="entrance")] == [
+        e.mass for e in bare.of_kind("column", group="entrance")
+    ]
     assert model.of_kind("floor")[0].mass == bare.of_kind("floor")[0].mass
     assert weigh(model)["total_kn"] > weigh(bare)["total_kn"] + 100
 

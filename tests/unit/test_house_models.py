@@ -71,7 +71,8 @@ def test_no_overlap_and_every_joint_on_both_surfaces(name):
         for end, sign in ((joint.a, 1), (joint.b, -1)):
             solid = model.element(end).solid
             normals, offsets = np.array([f.normal for f in solid.faces]), np.array([f.offset for f in solid.faces])
-            tied = joint.kind == "roof_roof" and name in GABLED  # two springs at the tie beams, at the level of the wall plates
+            # two springs at the tie beams, at the level of the wall plates
+            tied = joint.kind == "roof_roof" and name in GABLED
             points = joint.points[joint.points[:, 2] > solid.vertices[:, 2].min() + 1e-9] if tied else joint.points
             assert len(points) == (2 if tied else 4), joint.name
             height = (points @ normals.T - offsets).max(1)
@@ -142,7 +143,8 @@ def test_brace_is_a_band_cut_by_its_bay():
     assert house("B").element("main.brace1.NS.x8.0-1").volume == pytest.approx(volume, rel=1e-9)
 
 
-@pytest.mark.parametrize("name, side, brace_joints", [("B1", "east", 2), ("B2", "south", 2), ("C1", "east", 4), ("C2", "south", 3)])
+@pytest.mark.parametrize("name, side, brace_joints", [("B1", "east", 2), ("B2", "south", 2), ("C1", "east", 4),
+                                                      ("C2", "south", 3)])
 def test_damage_of_the_paper(name, side, brace_joints):
     broken = [j for j in house(name).joints if j.broken]
     assert house(name).counts()["broken_by_kind"] == {"column_beam": 8, "brace_beam": brace_joints}
@@ -153,7 +155,10 @@ def test_damage_of_the_paper(name, side, brace_joints):
 def test_damage_takes_the_joints_nearest_to_the_middle():
     broken = {j.a for j in house("B1").joints if j.broken and j.kind == "column_beam"}
     assert broken == {f"main.column1.x8y{n}" for n in range(1, 9)}
-    assert {j.a for j in house("C2").joints if j.broken and j.kind == "column_beam"} == {f"main.column1.x{n}y0" for n in range(8)}
+    assert {j.a
+            for j in house("C2").joints
+            if j.broken and j.kind == "column_beam"} == {f"main.column1.x{n}y0"
+                                                         for n in range(8)}
 
 
 def shapes(elements, mirror=None, about=0.0):

@@ -31,7 +31,10 @@ def test_unchanged_is_the_same_house(tmp_path):
 
 
 def test_keys_and_list_items(tmp_path):
-    settings = ["materials.timber.density=400", "plumb.drift=1e-3", "structures.main.stack[2].height=2.5", "structures.main.lines[1].at=[0, 4, 8]"]
+    settings = [
+        "materials.timber.density=400", "plumb.drift=1e-3", "structures.main.stack[2].height=2.5",
+        "structures.main.lines[1].at=[0, 4, 8]"
+    ]
     data, model = built(tmp_path, settings=settings)
     assert model.materials["timber"]["density"] == 400 and data["structures"]["main"]["lines"][0]["at"] == [0, 4, 8]
     assert data["plumb"]["drift"] == 1e-3 and data["structures"]["main"]["stack"][1]["height"] == 2.5
@@ -64,15 +67,18 @@ def test_strength_scales_every_joint_type_but_the_unbreakable(tmp_path):
     "changes, said",
     [
         ({"settings": ["materials.timber.densty=400"]}, "column set: materials.timber: unknown key 'densty'"),
-        ({"settings": ["materials.timber.density=-1"]}, "column set: materials.timber.density: must be a number in [20, 30000] kg/m3, got -1"),
+        ({"settings": ["materials.timber.density=-1"]
+          }, "column set: materials.timber.density: must be a number in [20, 30000] kg/m3, got -1"),
         ({"settings": ["materials.timber.density"]}, "column set: 'materials.timber.density': write key=value"),
-        ({"settings": ["friction[40].coefficient=1"]}, "column set: friction[40].coefficient: there is no item [40]; the list has "),
+        ({"settings": ["friction[40].coefficient=1"]
+          }, "column set: friction[40].coefficient: there is no item [40]; the list has "),
         ({"settings": ["name.first=x"]}, "column set: name.first: there is no table or list at 'first'"),
         ({"settings": ["snow.depth=[1"]}, "column set: '[1'"),
         ({"settings": ["a b=1"]}, "column set: 'a b'"),
         ({"braces": ["brace1.EW.y0.3-4"]}, "column braces: 'brace1.EW.y0.3-4': "),
         ({"braces": ["shed.brace1.EW.y0.3-4"]}, "column braces: shed.brace1.EW.y0.3-4: unknown structure 'shed'"),
-        ({"settings": ["joint_types.corner_fitting.strength=abc"]}, "column set: joint_types.corner_fitting.strength: expected a number in [10, inf] N, got 'abc'"),
+        ({"settings": ["joint_types.corner_fitting.strength=abc"]
+          }, "column set: joint_types.corner_fitting.strength: expected a number in [10, inf] N, got 'abc'"),
         ({"settings": ["joint_types.new.kn=1e5"]}, "column set: joint_types.new"),
         ({"settings": ["joint_types=5"]}, "column set: joint_types"),
         ({"settings": ["structures=5"], "braces": ["main.brace1.EW.y0.3-4"]}, "column set: structures"),
@@ -99,7 +105,10 @@ def test_free_bays_of_house_b():
     """
     bays = free_bays(load_house("B"))
     assert len(bays) == len(set(bays)) == 2 * 37 + 4
-    walls = {wall: sum(f"main.brace1.{wall}." in name for name in bays) for wall in ("NS.x0", "NS.x4", "NS.x8", "EW.y0", "EW.y4", "EW.y9")}
+    walls = {
+        wall: sum(f"main.brace1.{wall}." in name for name in bays)
+        for wall in ("NS.x0", "NS.x4", "NS.x8", "EW.y0", "EW.y4", "EW.y9")
+    }
     assert walls == {"NS.x0": 7, "NS.x4": 7, "NS.x8": 7, "EW.y0": 6, "EW.y4": 4, "EW.y9": 6}
     assert "main.brace1.NS.x0.0-1" not in bays and "main.brace1.NS.x0.1-2" in bays
 
@@ -108,16 +117,18 @@ def test_free_bays_between_half_nodes(tmp_path):
     """Columns at nodes 0, 0.5, 1.5, 2 of two walls: a bay that begins at a fraction is read back as itself, not as a
     bay on the line 2.1.
     """
-    lines = [{"along": "y", "at": [0, 2], "from": 0, "to": 2}, {"along": "x", "at": [0, 2], "from": 0, "to": 2, "cut": True}]
-    stack = [{"layer": "sill", "height": 0.12, "width": 0.12}, {"layer": "columns", "height": 2.2}, {"layer": "beams", "height": 0.12, "width": 0.12},
-             {"layer": "roof", "type": "flat", "thickness": 0.1}]
+    lines = [{"along": "y", "at": [0, 2], "from": 0, "to": 2},
+             {"along": "x", "at": [0, 2], "from": 0, "to": 2, "cut": True}]
+    stack = [{"layer": "sill", "height": 0.12, "width": 0.12}, {"layer": "columns", "height": 2.2},
+             {"layer": "beams", "height": 0.12, "width": 0.12}, {"layer": "roof", "type": "flat", "thickness": 0.1}]
     axis = {"module": 1.82, "count": 2}
     shed = {"place": {"origin": [0, 0]}, "grid": {"x": axis, "y": axis}, "margin": 0.06, "lines": lines, "stack": stack,
             "columns": [{"section": 0.12, "grid": {"x": [0, 2], "y": [0, 0.5, 1.5, 2]}}]}
     path, braced = tmp_path / "shed.yaml", tmp_path / "braced.yaml"
     path.write_text(yaml.safe_dump({"extends": "base", "name": "shed", "structures": {"shed": shed}}))
     names = free_bays(load_house(path))
-    assert len(names) == 8 and {"shed.brace1.NS.x2.0-0.5", "shed.brace1.NS.x2.0.0.5-1.5", "shed.brace1.EW.y2.0-2"} <= set(names)
+    assert len(names) == 8
+    assert {"shed.brace1.NS.x2.0-0.5", "shed.brace1.NS.x2.0.0.5-1.5", "shed.brace1.EW.y2.0-2"} <= set(names)
     braced.write_text(yaml.safe_dump(changed_house(path, braces=names), sort_keys=False))
     assert build_house(load_house(braced)).counts()["braces"] == 8 and free_bays(load_house(braced)) == []
 

@@ -29,7 +29,8 @@ def tables(field, path=""):
         yield from tables(field.item, path + ".*")
     elif isinstance(field, Variants):
         for option, form in field.options.items():
-            yield from tables(form, f"{path.removesuffix('}')}{', ' if path.endswith('}') else ' {'}{field.key}: {option}}}")
+            yield from tables(form,
+                              f"{path.removesuffix('}')}{', ' if path.endswith('}') else ' {'}{field.key}: {option}}}")
     elif isinstance(field, Record):
         yield path, field
         for key, entry in field.fields.items():

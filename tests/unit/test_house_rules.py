@@ -45,13 +45,18 @@ def test_posts_of_a_roof_over_a_part_of_the_grid(house, end):
     roof = f"{{layer: roof, type: mono, pitch: 0.2, falls: south, thickness: 0.12, material: roofing{area}}}"
     model = house(stack(SILL, COLUMNS, BEAMS, roof))
     slab = np.concatenate([e.vertices for e in model.of_kind("roof")])
-    posts = np.concatenate([joint.points for joint in model.joints if "roof" in (model.element(joint.a).kind, model.element(joint.b).kind) and np.mean(joint.points, axis=0)[1] > 7])
+    posts = np.concatenate([
+        joint.points
+        for joint in model.joints
+        if "roof" in (model.element(joint.a).kind, model.element(joint.b).kind) and np.mean(joint.points, axis=0)[1] > 7
+    ])
     assert posts[:, 0].max() <= slab[:, 0].max() + 1e-9 and posts[:, 0].max() > min(slab[:, 0].max(), 0.91 * end) - 0.2
     assert posts[:, 0].min() < 0.2
 
 
 def test_torn_braces_do_not_count(house):
-    whole, torn = (diagnose(house(damage)) for damage in ("", "damage: {regions: [{side: south, storey: 1, brace_beam: {count: 2}}]}\n"))
+    whole, torn = (diagnose(house(damage))
+                   for damage in ("", "damage: {regions: [{side: south, storey: 1, brace_beam: {count: 2}}]}\n"))
     key = lambda found: found["structures"]["main"]["storeys"]["1"]["directions"]["ew"]["wall_quantity_ratio"]
     assert key(torn) == pytest.approx(key(whole) / 2, abs=6e-4)  # three digits
 
@@ -62,7 +67,8 @@ def test_a_leaning_house_has_the_same_uplift(house):
 
 
 def test_the_kind_of_a_rule_does_not_change_the_uplift(house):
-    named, own = (diagnose(house(text))["structures"]["main"]["uplift"] for text in ("", "joints: {column_ends: {kind: column_end}}\n"))
+    named, own = (diagnose(house(text))["structures"]["main"]["uplift"]
+                  for text in ("", "joints: {column_ends: {kind: column_end}}\n"))
     assert named == own
 
 
@@ -88,7 +94,8 @@ def test_weight_of_all_structures():
     [
         ("damage: {regions: [{side: south, storey: 1}]}", "give column_beam or brace_beam"),
         ("wall_types: {window: {multiplier: 2}}", "wall_types.window: the name of an opening"),
-        ("structures: {main: {walls: [{along: x, at: 0, from: 2, to: 4, type: []}]}}", "walls[1].type: a list of 0 items"),
+        ("structures: {main: {walls: [{along: x, at: 0, from: 2, to: 4, type: []}]}}",
+         "walls[1].type: a list of 0 items"),
         ("structures: {main: {place: {gap: 3}}}", "place.gap: belongs to 'beside'"),
         ("structures: {main: {place: {align: north}}}", "place.align: belongs to 'beside'"),
     ],
@@ -101,7 +108,8 @@ def test_entries_without_effect_are_refused(house, changes, words):
 
 @pytest.mark.parametrize("strength, refused", [("21000", False), ("200000", True), (".inf", True)])
 def test_strength_of_a_rule_for_yielding_joints(tmp_path, strength, refused):
-    (tmp_path / "own.yaml").write_text(f"extends: storehouse\nname: own\njoints: {{column_ends: {{strength: {strength}}}}}\n")
+    (tmp_path /
+     "own.yaml").write_text(f"extends: storehouse\nname: own\njoints: {{column_ends: {{strength: {strength}}}}}\n")
     if refused:
         with pytest.raises(HouseError, match="joints.column_ends.strength: must be below"):
             load_house(tmp_path / "own.yaml")

@@ -57,19 +57,25 @@ def test_snow_slides_where_the_roof_is_steeper_than_friction(tmp_path, pitch):
         assert (clod.state.pos - clod.state.refPos).norm() == pytest.approx(slide, abs=4e-3)
 
 
-@pytest.mark.parametrize("grid", ["x: {module: 0.91, count: 1}, y: {module: 0.91, count: 1}", "x: {module: 0.91, count: 3}, y: {module: 0.91, count: 3}"])
+@pytest.mark.parametrize("grid", [
+    "x: {module: 0.91, count: 1}, y: {module: 0.91, count: 1}",
+    "x: {module: 0.91, count: 3}, y: {module: 0.91, count: 3}"
+])
 def test_one_module_and_a_pyramid_stand(tmp_path, grid):
     last = int(grid[-2])
     start, end = STOREHOUSE.index("    grid:"), len(STOREHOUSE)
     text = STOREHOUSE[:start] + f"""    grid: {{{grid}}}
     margin: 0.06
-    lines: [{{along: y, at: [0, {last}], from: 0, to: {last}}}, {{along: x, at: [0, {last}], from: 0, to: {last}, cut: true}}]
+    lines: [{{along: y, at: [0, {last}], from: 0, to: {last}}}, {{along: x, at: [0, {last}], from: 0, to: {last},
+             cut: true}}]
     stack:
       - {{layer: sill, height: 0.12, width: 0.12}}
       - {{layer: columns, height: 2.4}}
       - {{layer: beams, height: 0.12, width: 0.12}}
       - {{layer: roof, type: hip, pitch: 0.4, thickness: 0.12, corner_cut: 0.1, material: tiles}}
-    columns: [{{section: 0.12, lines: [{{along: y, at: [0, {last}], from: 0, to: {last}}}, {{along: x, at: [0, {last}], from: 0, to: {last}}}]}}]
+    columns:
+      - section: 0.12
+        lines: [{{along: y, at: [0, {last}], from: 0, to: {last}}}, {{along: x, at: [0, {last}], from: 0, to: {last}}}]
     braces: {{lines: [{{along: y, at: [0, {last}], runs: [[0, 1]]}}, {{along: x, at: [0, {last}], runs: [[1, 0]]}}]}}
 """ + STOREHOUSE[end:]
     path = tmp_path / "small.yaml"
@@ -78,7 +84,9 @@ def test_one_module_and_a_pyramid_stand(tmp_path, grid):
     assert max(monitor.peak) < 2e-3 and broken() == 0
     if last == 1:
         path.write_text(text + "joint_types: {roof_plate: {kn: 4e10, ks: 4e10}}\n")
-        with pytest.raises(HouseError, match="a time step of 0.0002 s is too large for the joints between the lightest members: take at most"):
+        with pytest.raises(
+                HouseError,
+                match="a time step of 0.0002 s is too large for the joints between the lightest members: take at most"):
             stand(path, 0.0)
 
 
@@ -102,14 +110,18 @@ def test_drift_refers_to_the_height_of_its_own_storey():
     O.dt = 1e-3
     O.step()
     assert list(monitor.peak) == pytest.approx([0, 0.05, 0.075, 0.025])
-    assert monitor.collapseTime == 0 and monitor.columns()[:4] == ["time [s]", "drift_ns1 [-]", "drift_ew1 [-]", "drop1 [m]"]
+    assert monitor.collapseTime == 0
+    assert monitor.columns()[:4] == ["time [s]", "drift_ns1 [-]", "drift_ew1 [-]", "drop1 [m]"]
     with pytest.raises(ValueError, match="HouseMonitor.heights"):
         yt.HouseMonitor(heights=[2.0, 0.0])
 
 
 def test_each_storey_has_its_height(tmp_path):
     path = tmp_path / "low.yaml"
-    path.write_text((SHIPPED / "l_house.yaml").read_text().replace("{layer: columns, height: 2.73}", "{layer: columns, height: 2.4}", 1))
+    path.write_text(
+        (SHIPPED /
+         "l_house.yaml").read_text().replace("{layer: columns, height: 2.73}", "{layer: columns, height: 2.4}", 1)
+    )
     model = scenario.build(scenario.Scenario("heights", str(path)))
     assert list(engines.find_engine(yt.HouseMonitor).heights) == pytest.approx([2.4, 2.73])
     assert model.storey_levels["side"][2][0] == pytest.approx(0.42 + 2.4 + 0.32)
@@ -118,10 +130,12 @@ def test_each_storey_has_its_height(tmp_path):
 def test_a_roof_right_on_the_columns_marks_the_upper_level(tmp_path):
     """No beams under the roof of a house that has a floor: the roof itself marks the level of the upper storey."""
     base = yaml.safe_load((SHIPPED / "paper.yaml").read_text())
-    stack = [*base["structures"]["main"]["stack"][:6], {"layer": "roof", "type": "flat", "thickness": 0.12}]  # without the upper beams
+    stack = [*base["structures"]["main"]["stack"][:6], {"layer": "roof", "type": "flat",
+                                                        "thickness": 0.12}]  # without the upper beams
     rules = {"column_roofs": {"between": ["column", "roof"], "type": "corner_fitting", "kind": "column_roof"}}
     path = tmp_path / "bare.yaml"
-    path.write_text(yaml.safe_dump({"extends": "A", "structures": {"main": {"stack": stack}, "entrance": None}, "joints": rules}))
+    path.write_text(
+        yaml.safe_dump({"extends": "A", "structures": {"main": {"stack": stack}, "entrance": None}, "joints": rules}))
     model = scenario.build(scenario.Scenario("bare", str(path)))
     assert {level for _, level in scenario.level_marks(model, "main")} == {1, 2}
 
@@ -130,7 +144,8 @@ def structures(model):
     """(fallen, leaning) structures of the scene as it is now."""
     observed = Observer(model)
     found = observed.survey.by_structure(observed.state(), observed.peaks)
-    return [name for name, facts in found.items() if facts.collapsed], [name for name, facts in found.items() if facts.leans]
+    return [name for name, facts in found.items()
+            if facts.collapsed], [name for name, facts in found.items() if facts.leans]
 
 
 def test_fallen_structures_are_named():
@@ -166,19 +181,30 @@ structures:
       - {{layer: columns, height: 2.7}}
       - {{layer: beams, height: 0.24, width: 0.12}}
       - {{layer: roof, {roof}, thickness: 0.12, material: roofing}}
-    columns: [{{section: 0.12, lines: [{{along: y, at: [0, {nx}], from: 0, to: {ny}}}, {{along: x, at: [0, {ny}], from: 0, to: {nx}}}]}}]
-    braces: {{lines: [{{along: y, at: [0, {nx}], runs: [[0, 1], [{ny}, {ny} - 1]]}}, {{along: x, at: [0, {ny}], runs: [[0, 1], [{nx}, {nx} - 1]]}}]}}
+    columns:
+      - section: 0.12
+        lines: [{{along: y, at: [0, {nx}], from: 0, to: {ny}}}, {{along: x, at: [0, {ny}], from: 0, to: {nx}}}]
+    braces:
+      lines:
+        - {{along: y, at: [0, {nx}], runs: [[0, 1], [{ny}, {ny} - 1]]}}
+        - {{along: x, at: [0, {ny}], runs: [[0, 1], [{nx}, {nx} - 1]]}}
 """
 """One storey of nx by ny modules without inner walls."""
 
 
 @pytest.mark.parametrize("nx, ny, roof, load, snow", [
-    (7, 8, "type: gable, pitch: 0.45, eaves: 0.75", 0.85, 0.5), (7, 8, "type: gable, pitch: 0.1, eaves: 0.6", 0.85, 0.0),
-    (4, 6, "type: gable, pitch: 1.2", 0.85, 0.0), (8, 7, "type: gable, pitch: 0.3, ridge: y, eaves: 0.9", 1.5, 0.0),
-    (10, 12, "type: gable, pitch: 0.4, eaves: 0.6", 0.85, 1.0), (2, 3, "type: gable, pitch: 0.5, eaves: 0.3", 0.2, 2.0),
-    (7, 8, "type: hip, pitch: 0.45, eaves: 0.75", 0.85, 0.5), (10, 14, "type: hip, pitch: 0.25, eaves: 0.6", 0.85, 0.0),
-    (7, 8, "type: mono, falls: west, pitch: 0.2, eaves: 0.6", 0.85, 0.5), (10, 4, "type: mono, falls: south, pitch: 0.4", 0.85, 1.0),
-    (4, 6, "type: mono, falls: north, pitch: 0.05, eaves: 0.3", 1.5, 0.0), (10, 10, "type: mono, falls: east, pitch: 0.3, eaves: 0.9", 0.85, 0.0),
+    (7, 8, "type: gable, pitch: 0.45, eaves: 0.75", 0.85, 0.5),
+    (7, 8, "type: gable, pitch: 0.1, eaves: 0.6", 0.85, 0.0),
+    (4, 6, "type: gable, pitch: 1.2", 0.85, 0.0),
+    (8, 7, "type: gable, pitch: 0.3, ridge: y, eaves: 0.9", 1.5, 0.0),
+    (10, 12, "type: gable, pitch: 0.4, eaves: 0.6", 0.85, 1.0),
+    (2, 3, "type: gable, pitch: 0.5, eaves: 0.3", 0.2, 2.0),
+    (7, 8, "type: hip, pitch: 0.45, eaves: 0.75", 0.85, 0.5),
+    (10, 14, "type: hip, pitch: 0.25, eaves: 0.6", 0.85, 0.0),
+    (7, 8, "type: mono, falls: west, pitch: 0.2, eaves: 0.6", 0.85, 0.5),
+    (10, 4, "type: mono, falls: south, pitch: 0.4", 0.85, 1.0),
+    (4, 6, "type: mono, falls: north, pitch: 0.05, eaves: 0.3", 1.5, 0.0),
+    (10, 10, "type: mono, falls: east, pitch: 0.3, eaves: 0.9", 0.85, 0.0),
 ])
 def test_walls_feel_the_weight_of_a_roof_and_no_thrust(tmp_path, nx, ny, roof, load, snow):
     """Wall plates move by 0.65 mm and joints have 0.29 of their strength at most under gables, 1.2 mm and 0.50 under
@@ -189,11 +215,14 @@ def test_walls_feel_the_weight_of_a_roof_and_no_thrust(tmp_path, nx, ny, roof, l
     Without tie beams three of the gables break joints, and their plates move by more than 0.2 m.
     """
     path = tmp_path / "wide.yaml"
-    path.write_text(WIDE.format(nx=nx, ny=ny, roof=roof, load=load).replace(f"{nx} - 1", str(nx - 1)).replace(f"{ny} - 1", str(ny - 1)))
+    path.write_text(
+        WIDE.format(nx=nx, ny=ny, roof=roof, load=load).replace(f"{nx} - 1", str(nx - 1)).replace(
+            f"{ny} - 1", str(ny - 1)))
     monitor = stand(path, 0.5, snow, dt=3e-4)
     apart = max(abs(b.state.pos[k] - b.state.refPos[k]) for b in O.bodies if b.shape.kind == "beam" for k in (0, 1))
     load = max(engines.find_engine(yt.StructureMonitor).load)
-    most, strongest, sway = {"gable": (8e-4, 0.35, 1e-6), "hip": (1.3e-3, 0.55, 1e-6), "mono": (3e-4, 0.06, 2e-4)}[roof.split(",")[0][6:]]
+    most, strongest, sway = {"gable": (8e-4, 0.35, 1e-6), "hip": (1.3e-3, 0.55, 1e-6), "mono": (
+        3e-4, 0.06, 2e-4)}[roof.split(",")[0][6:]]
     assert broken() == 0 and max(monitor.peak) < sway and apart < most and load < strongest
 
 
@@ -203,7 +232,8 @@ def test_damage_before_the_shaking_is_an_event():
     """
     shaking = np.zeros((100, 3))
     shaking[50:, 0] = 1.0
-    cases = ((0.0, 0.5, False, 0), (0.2, 0.3, False, 0), (0.2, 0.48, False, 1), (0.2, 0.6, False, 0), (0.2, 0.3, True, 1), (0.2, 0.6, True, 0))
+    cases = ((0.0, 0.5, False, 0), (0.2, 0.3, False, 0), (0.2, 0.48, False, 1), (0.2, 0.6, False, 0),
+             (0.2, 0.3, True, 1), (0.2, 0.6, True, 0))
     for lean, time, last, events in cases:
         model = scenario.build(scenario.Scenario("weight", "A", GroundMotion(0.01, shaking)))
         observed = Observer(model)

@@ -19,7 +19,8 @@ from yade_timber.house.nails import nailed_wall
 
 def house(tmp_path, walls, types="{}", base="C", level=None):
     path = tmp_path / "own.yaml"
-    path.write_text(f"extends: {base}\nname: own\nwall_types: {types}\nstructures:\n  main:\n    walls:\n      - {walls}\n")
+    path.write_text(
+        f"extends: {base}\nname: own\nwall_types: {types}\nstructures:\n  main:\n    walls:\n      - {walls}\n")
     return build_house(load_house(path), wall_level=level)
 
 
@@ -32,29 +33,37 @@ def test_bays_storeys_and_names(tmp_path):
     house.
     """
     model, bare = house(tmp_path, "{along: y, at: 8, from: 0, to: 3, type: plywood}"), build_house(load_house("C"))
-    assert [joint.name for joint in sheets(model)][:2] == ["main.wall1.NS.x8.0-1.plywood.beams", "main.wall1.NS.x8.1-2.plywood.beams"]
+    assert [joint.name for joint in sheets(model)][:2] == [
+        "main.wall1.NS.x8.0-1.plywood.beams", "main.wall1.NS.x8.1-2.plywood.beams"
+    ]
     assert len(sheets(model)) == len(sheets(model, "wall_column")) == 6 == model.counts()["walls"]
-    assert [e.name for e in model.elements] == [e.name for e in bare.elements] and len(model.joints) == len(bare.joints) + 12
+    assert [e.name for e in model.elements] == [e.name for e in bare.elements]
+    assert len(model.joints) == len(bare.joints) + 12
     first, upper = sheets(model)[0], sheets(model)[3]
     assert (first.a, first.b, first.storey, first.side) == ("main.foundation.NS.x8", "main.beam1.NS.x8", 1, {"east"})
     assert (upper.a, upper.b, upper.storey) == ("main.floor1", "main.beam2.NS.x8", 2)
-    assert first.normal == pytest.approx([0, 1, 0]) and first.points == pytest.approx(np.array([[8 * 0.91, 0.455, 0.30 + 2.73 / 2]]))
+    assert first.normal == pytest.approx([0, 1, 0])
+    assert first.points == pytest.approx(np.array([[8 * 0.91, 0.455, 0.30 + 2.73 / 2]]))
 
 
-@pytest.mark.parametrize("opening, wide, ratio", [("none", False, 1), ("window", False, 0.4), ("window", True, 0.3), ("door", False, 0.2), ("door", True, 0.15)])
+@pytest.mark.parametrize("opening, wide, ratio", [("none", False, 1), ("window", False, 0.4), ("window", True, 0.3),
+                                                  ("door", False, 0.2), ("door", True, 0.15)])
 def test_values_of_the_springs(tmp_path, opening, wide, ratio):
     """Level design: half of 1.5 times and of 150 / rad times the allowable 1.96 kN/m, over the bay's length; stretches
     are drifts times height or length.
     """
-    ends, length = ("{along: x, at: 4, from: 4, to: 7", 3 * 0.91) if wide else ("{along: x, at: 4, from: 0, to: 1", 0.91)
+    ends, length = ("{along: x, at: 4, from: 4, to: 7",
+                    3 * 0.91) if wide else ("{along: x, at: 4, from: 0, to: 1", 0.91)
     ratio = {("window", True): 0.2, ("door", True): 0.1}.get((opening, wide), ratio)  # longer than 2 m
     model = house(tmp_path, ends + f", type: plywood, opening: {opening}, storeys: 1}}", level="design")
     beams, columns = sheets(model)[0], sheets(model, "wall_column")[0]
     strength = 1.5 * 1960 * 2.5 * length * ratio
-    assert beams.strength == pytest.approx(strength / 2) and columns.strength == pytest.approx(strength / 2 * 2.73 / length)
+    assert beams.strength == pytest.approx(strength / 2)
+    assert columns.strength == pytest.approx(strength / 2 * 2.73 / length)
     for joint, lever in ((beams, 2.73), (columns, length)):
         assert joint.strength / joint.kn == pytest.approx(lever / 100)
-        assert (joint.softening_stretch, joint.ultimate_stretch, joint.ks) == (pytest.approx(0.05 * lever), pytest.approx(0.103 * lever), 0)
+        assert (joint.softening_stretch, joint.ultimate_stretch, joint.ks) == (pytest.approx(
+            0.05 * lever), pytest.approx(0.103 * lever), 0)
 
 
 def drifts_and_shears(joint, length=0.91, height=2.73):
@@ -73,11 +82,13 @@ def test_levels_of_a_multiplier(tmp_path):
     line, allowable = "{along: x, at: 0, from: 0, to: 1, type: %s, storeys: 1}", 2.5 * 1960
     joint, = sheets(house(tmp_path, line % "plywood"))
     assert np.ravel(drifts_and_shears(joint)) == pytest.approx(np.ravel([(d, r * allowable) for d, r in MEAN]))
-    assert joint.kn == pytest.approx(1.4 * 120 * allowable * 0.91 / 2 / 2.73) and joint.strength == pytest.approx(2.8 * allowable * 0.91 / 2)
+    assert joint.kn == pytest.approx(1.4 * 120 * allowable * 0.91 / 2 / 2.73)
+    assert joint.strength == pytest.approx(2.8 * allowable * 0.91 / 2)
     own = tmp_path / "design.yaml"
     own.write_text("extends: own.yaml\nlaw: {wall_level: design}\n")
     model = build_house(load_house(own))
-    assert model.law["wall_level"] == "design" and np.ravel(drifts_and_shears(sheets(model)[0])) == pytest.approx([0.01, 7350, 0.05, 7350, 0.103, 0])
+    assert model.law["wall_level"] == "design"
+    assert np.ravel(drifts_and_shears(sheets(model)[0])) == pytest.approx([0.01, 7350, 0.05, 7350, 0.103, 0])
     assert build_house(load_house(own), wall_level="mean").law["wall_level"] == "mean"
     early = drifts_and_shears(sheets(house(tmp_path, line % "a", "{a: {multiplier: 1, softening_drift: 0.016}}"))[0])
     assert np.ravel(early) == pytest.approx([0.016, 2.8 * 1960, 0.115, 0])
@@ -90,8 +101,10 @@ def test_envelope_of_a_test(tmp_path):
     points = "[[1/120, 6590], [0.03, 13000], [1/20, 10400]]"
     joint, = sheets(house(tmp_path, line, f"{{a: {{envelope: {points}}}}}"))
     assert np.ravel(drifts_and_shears(joint)) == pytest.approx([1 / 120, 6590, 0.03, 13000, 0.05, 10400, 0.13, 0])
-    assert joint.kn == pytest.approx(6590 * 120 * 0.91 / 2 / 2.73) and joint.softening_stretch == pytest.approx(0.03 * 2.73)
-    last = drifts_and_shears(sheets(house(tmp_path, line, f"{{a: {{envelope: {points}, ultimate_drift: 1/15}}}}"))[0])[-1]
+    assert joint.kn == pytest.approx(6590 * 120 * 0.91 / 2 / 2.73)
+    assert joint.softening_stretch == pytest.approx(0.03 * 2.73)
+    last = drifts_and_shears(sheets(house(tmp_path, line,
+                                          f"{{a: {{envelope: {points}, ultimate_drift: 1/15}}}}"))[0])[-1]
     assert last == pytest.approx((1 / 15, 0))
     origin, = sheets(house(tmp_path, line, f"{{a: {{envelope: {points.replace('[[', '[[0, 0], [')}}}}}"))
     assert origin.envelope == joint.envelope
@@ -119,7 +132,8 @@ def test_nails_of_one_board_against_a_minimum():
     nails = {"k": 4e5, "Pv": 900.0, "du": 0.017, "spacing": 0.15, "inner_spacing": 0.2, "height": None,
              "board": {"width": 0.91, "heights": [1.8], "thickness": 1.0, "shear_modulus": 1e20, "edge": 0.02}}
     xs, ys, inner = np.linspace(-0.435, 0.435, 7), np.linspace(-0.88, 0.88, 13), np.linspace(-0.88, 0.88, 10)[1:-1]
-    points = [(x, y) for x in (-0.435, 0.435) for y in ys] + [(x, y) for x in xs[1:-1] for y in (-0.88, 0.88)] + [(0, y) for y in inner]
+    points = [(x, y) for x in (-0.435, 0.435) for y in ys] + [(x, y) for x in xs[1:-1]
+                                                              for y in (-0.88, 0.88)] + [(0, y) for y in inner]
     x, y = np.array(points).T
     work = [4e5 * (((1 - q) * y) ** 2 + (q * x) ** 2).sum() for q in np.linspace(0, 1, 100001)]
     best = np.linspace(0, 1, 100001)[np.argmin(work)]
@@ -132,16 +146,20 @@ def test_nails_of_one_board_against_a_minimum():
 
 def test_wall_of_nails(tmp_path):
     """The example's wall in a bay: elastic, plastic up to the nails' failure, then the tail of tested walls."""
-    joint, = sheets(house(tmp_path, "{along: x, at: 0, from: 0, to: 1, type: a, storeys: 1}", f"{{a: {{nails: {NAILS}}}}}"))
+    joint, = sheets(
+        house(tmp_path, "{along: x, at: 0, from: 0, to: 1, type: a, storeys: 1}", f"{{a: {{nails: {NAILS}}}}}"))
     (start, strength), (first, plastic), (end, nothing) = drifts_and_shears(joint)
     assert (strength, plastic, nothing) == (pytest.approx(41.3e3 / 3.0 / 0.91, rel=0.01), pytest.approx(strength), 0)
-    assert (start, first, end) == (pytest.approx(41.3 / 3 / 1255, rel=0.01), pytest.approx(5.25 * start, rel=0.01), pytest.approx(2.314 * first, rel=0.01))
+    assert (start, first, end) == (pytest.approx(41.3 / 3 / 1255, rel=0.01), pytest.approx(
+        5.25 * start, rel=0.01), pytest.approx(2.314 * first, rel=0.01))
 
 
 def test_own_wall_type(tmp_path):
-    types = "{board: {strength: 11500, stiffness: 8.0e5, friction_share: 0.1, softening_drift: 0.03, ultimate_drift: 0.06}}"
+    types = ("{board: {strength: 11500, stiffness: 8.0e5, friction_share: 0.1, softening_drift: 0.03, "
+             "ultimate_drift: 0.06}}")
     joint, = sheets(house(tmp_path, "{along: x, at: 0, from: 0, to: 1, type: board, storeys: 2}", types))
-    assert (joint.strength, joint.kn, joint.friction_share) == (pytest.approx(11500 * 0.91 / 2), pytest.approx(8e5 * 0.91 / 2 / 2.73), 0.1)
+    assert (joint.strength, joint.kn, joint.friction_share) == (pytest.approx(
+        11500 * 0.91 / 2), pytest.approx(8e5 * 0.91 / 2 / 2.73), 0.1)
 
 
 def test_several_sheets_of_a_bay(tmp_path):
@@ -156,7 +174,8 @@ def test_walls_of_a_leaning_house(tmp_path):
     path.write_text("extends: tiled_house\nname: own\nplumb: {drift: 0.01, towards: east}\n")
     model = build_house(load_house(path))
     joint = sheets(model)[0]
-    assert joint.points[0][2] == pytest.approx(0.52 + 2.73 / 2) and joint.points[0][0] == pytest.approx(0.455 + 0.01 * (0.12 + 2.73 / 2), abs=2e-3)
+    assert joint.points[0][2] == pytest.approx(0.52 + 2.73 / 2)
+    assert joint.points[0][0] == pytest.approx(0.455 + 0.01 * (0.12 + 2.73 / 2), abs=2e-3)
 
 
 def test_the_tiled_house():
@@ -164,7 +183,8 @@ def test_the_tiled_house():
     assert 2.5 < weigh(model)["per_floor_area_kn_m2"] < 3.0
     assert model.counts()["braces"] == 0 and model.counts()["walls"] == 64
     layers = len(sheets(model))
-    assert model.counts()["joints"] == len(model.joints) - 2 * layers and f" joints, {layers} wall sheets, " in repr(model)
+    assert model.counts()["joints"] == len(model.joints) - 2 * layers
+    assert f" joints, {layers} wall sheets, " in repr(model)
     assert "wall" not in build_house(load_house("C")).joints_text
 
 
@@ -176,7 +196,8 @@ def test_walls_are_added_by_name(tmp_path):
     assert "main.wall1.EW.y0.3-4.plywood" in names and len(names) == len(set(names)) > 80
     path = tmp_path / "walled.yaml"
     path.write_text(yaml.safe_dump(changed_house("C", braces=names), sort_keys=False))
-    assert build_house(load_house(path)).counts()["walls"] == len(names) and free_wall_bays(load_house(path), "mud") == []
+    assert build_house(load_house(path)).counts()["walls"] == len(names)
+    assert free_wall_bays(load_house(path), "mud") == []
     path.write_text(yaml.safe_dump(changed_house(path, braces=names[:1]), sort_keys=False))
     with pytest.raises(HouseError, match=f"{names[0].removesuffix('.plywood')} has sheathing of type plywood already"):
         build_house(load_house(path))
@@ -192,26 +213,63 @@ def test_wrong_names_of_walls(name, words):
 
 
 MISTAKES = {
-    "no column": ("{along: y, at: 8, from: 0, to: 20, type: plywood}", "{}", ["own.yaml:7", "no column at node 20", "0, 1, 2"]),
+    "no column": (
+        "{along: y, at: 8, from: 0, to: 20, type: plywood}", "{}", ["own.yaml:7", "no column at node 20", "0, 1, 2"]),
     "backwards": ("{along: y, at: 8, from: 3, to: 0, type: plywood}", "{}", ["'from' must be below 'to'"]),
-    "unknown type": ("{along: y, at: 8, from: 0, to: 1, type: plywod}", "{}", ["structures.main.walls[1].type", "did you mean 'plywood'?"]),
+    "unknown type": ("{along: y, at: 8, from: 0, to: 1, type: plywod}", "{}", [
+        "structures.main.walls[1].type", "did you mean 'plywood'?"
+    ]),
     "unknown storey": ("{along: y, at: 8, from: 0, to: 1, type: mud, storeys: 3}", "{}", ["no storey 3"]),
     "twice": ("{along: y, at: [8, 8], from: 0, to: 1, type: mud}", "{}", ["main.wall1.NS.x8.0-1", "type mud already"]),
-    "no strength": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {stiffness: 1.0e5}}", ["own.yaml:3", "wall_types.a", "give multiplier or strength"]),
-    "descending": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {multiplier: 1, softening_drift: 0.005}}", ["0.01", "must ascend"]),
-    "two forms": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {multiplier: 2, envelope: [[0.01, 5000], [0.1, 0]]}}", ["own.yaml:3", "give one of"]),
-    "points descend": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[0.02, 5000], [0.01, 6000]]}}", ["own.yaml:3", "the drifts must ascend"]),
-    "points end at the peak": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[0.01, 5000], [0.02, 6000]]}}", ["ultimate_drift"]),
-    "points with a gap": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[0.01, 5000], [0.02, 0], [0.03, 100]]}}", ["only the last point"]),
-    "shear in kN": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[0.01, 6.6], [0.1, 0]]}}", ["own.yaml:3", "N per m of wall", "kN"]),
-    "no points": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[0, 0]]}}", ["needs points [drift, shear]"]),
-    "shear at rest": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[0, 500], [0.1, 0]]}}", ["with drifts > 0"]),
-    "point of one number": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [0.01, 5000]}}", ["envelope[1]", "a list of two items"]),
-    "drift in percent": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[1.5, 5000], [3, 0]]}}", ["envelope[1][1]", "[0, 1] rad"]),
-    "nails in kN/mm": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {nails: %s}}" % NAILS.replace("4.83e5", "0.483"), ["nails.k", "0.483 kN/mm = 483000"]),
-    "nails without slip": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {nails: %s}}" % NAILS.replace("du: 0.017", "du: 0.002"), ["nails.du", "greater than Pv / k"]),
-    "nails in contradiction": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {nails: %s}}" % NAILS.replace("2.3e-3", "4e-3"), ["nails.dv", "within 10 %"]),
-    "strength of nails": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {strength: 5000, nails: %s}}" % NAILS, ["'strength' does not go with nails"]),
+    "no strength": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {stiffness: 1.0e5}}", [
+        "own.yaml:3", "wall_types.a", "give multiplier or strength"
+    ]),
+    "descending": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {multiplier: 1, softening_drift: 0.005}}", [
+        "0.01", "must ascend"
+    ]),
+    "two forms": (
+        "{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {multiplier: 2, envelope: [[0.01, 5000], [0.1, 0]]}}", [
+            "own.yaml:3", "give one of"
+        ]),
+    "points descend": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[0.02, 5000], [0.01, 6000]]}}", [
+        "own.yaml:3", "the drifts must ascend"
+    ]),
+    "points end at the peak": (
+        "{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[0.01, 5000], [0.02, 6000]]}}", [
+            "ultimate_drift"
+        ]),
+    "points with a gap": (
+        "{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[0.01, 5000], [0.02, 0], [0.03, 100]]}}", [
+            "only the last point"
+        ]),
+    "shear in kN": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[0.01, 6.6], [0.1, 0]]}}", [
+        "own.yaml:3", "N per m of wall", "kN"
+    ]),
+    "no points": (
+        "{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[0, 0]]}}", ["needs points [drift, shear]"]),
+    "shear at rest": (
+        "{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[0, 500], [0.1, 0]]}}", ["with drifts > 0"]),
+    "point of one number": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [0.01, 5000]}}", [
+        "envelope[1]", "a list of two items"
+    ]),
+    "drift in percent": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[1.5, 5000], [3, 0]]}}", [
+        "envelope[1][1]", "[0, 1] rad"
+    ]),
+    "nails in kN/mm": (
+        "{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {nails: %s}}" % NAILS.replace("4.83e5", "0.483"), [
+            "nails.k", "0.483 kN/mm = 483000"
+        ]),
+    "nails without slip": (
+        "{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {nails: %s}}" % NAILS.replace("du: 0.017", "du: 0.002"), [
+            "nails.du", "greater than Pv / k"
+        ]),
+    "nails in contradiction": (
+        "{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {nails: %s}}" % NAILS.replace("2.3e-3", "4e-3"), [
+            "nails.dv", "within 10 %"
+        ]),
+    "strength of nails": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {strength: 5000, nails: %s}}" % NAILS, [
+        "'strength' does not go with nails"
+    ]),
     "opening": ("{along: y, at: 8, from: 0, to: 1, type: mud, opening: hole}", "{}", ["none, window, door"]),
 }
 

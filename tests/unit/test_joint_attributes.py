@@ -67,7 +67,8 @@ def test_set_between_steps():
 
 def test_law_and_body_set_between_steps():
     state, joint = hung()
-    joint.updateAttrs({"law": "slip", "strength": 1.0, "softeningStretch": 0.1, "ultimateStretch": 0.2, "frictionShare": 1.0})
+    joint.updateAttrs(
+        {"law": "slip", "strength": 1.0, "softeningStretch": 0.1, "ultimateStretch": 0.2, "frictionShare": 1.0})
     O.run(10, True)
     assert max(f.norm() for f in joint.forces) == pytest.approx(1.0, rel=1e-9) and joint.largestStretches[0] > 0
     joint.updateAttrs({"law": "brittle", "strength": 1e9})
@@ -94,7 +95,8 @@ def test_envelope_set_between_steps():
     joint.perJoint = True
     O.step()
     length = joint.largestStretches[0]
-    assert joint.forces[0].norm() == pytest.approx(points[1][1] / 4 * (points[2][0] - length) / (points[2][0] - points[1][0]), rel=1e-9)
+    assert joint.forces[0].norm() == pytest.approx(
+        points[1][1] / 4 * (points[2][0] - length) / (points[2][0] - points[1][0]), rel=1e-9)
     forces = joint.forces
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "scene.yade")
@@ -125,7 +127,8 @@ def test_joint_of_an_erased_body():
 def test_joint_that_is_appended_during_a_run():
     joint = hung()[1]
     forces = joint.forces
-    other = yw.TimberJoint(id1=joint.id1, id2=joint.id2, anchors1=joint.anchors1[:1], anchors2=joint.anchors2[:1], kn=1e3, ks=1e3, strength=1e9)
+    other = yw.TimberJoint(id1=joint.id1, id2=joint.id2, anchors1=joint.anchors1[:1], anchors2=joint.anchors2[:1],
+                           kn=1e3, ks=1e3, strength=1e9)
     find_engine(yt.JointEngine).append(other)
     assert joint.forces == forces and other.forces[0].norm() == 0
     O.step()

@@ -17,7 +17,8 @@ def test_named_times():
     made.summary = made.summary.changed(tilt_time_s=1.75)
     found = {chosen.reason: made.time[chosen.frame] for chosen in key_times.choose(made)}
     assert {"start", "drift 1/10", "strongest shaking", "end"} <= set(found)
-    assert (found["start"], found["strongest shaking"], found["drift 1/10"], found["end"]) == pytest.approx((0, 1.2, 1.75, 3))
+    assert (found["start"], found["strongest shaking"], found["drift 1/10"], found["end"]) == pytest.approx(
+        (0, 1.2, 1.75, 3))
     assert "collapse" not in found
     made.summary = made.summary.changed(tilt_time_s=1.6)
     assert "strongest shaking" not in [chosen.reason for chosen in key_times.choose(made)]
@@ -43,7 +44,8 @@ def test_each_panel_says_what_it_shows():
     """
     made = frames()
     assert all(chosen.reason for chosen in key_times.choose(made))
-    assert [key_times.state(made, frame) for frame in (10, 30, 40)] == ["drift below 1/1000", "drift 1/4", "after the collapse"]
+    assert [key_times.state(made, frame)
+            for frame in (10, 30, 40)] == ["drift below 1/1000", "drift 1/4", "after the collapse"]
     assert key_times.state(frames(ended=False), 40) == "1 broken joint"
 
 

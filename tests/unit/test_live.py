@@ -23,7 +23,9 @@ from yade_timber.scene.engines import find_engine
 
 def begin(folder, steps=4000, quiet=True, **more):
     """A live run of house A under snow, going on in the background. more: of the Scenario."""
-    run = live.LiveRun(scenario.Scenario("live", "A", snow_depth=1.0, dt=2e-4, duration=steps * 2e-4, options={"skip_rest": 0}, **more), RunOptions(house="A", out=folder, no_views=True, quiet=quiet))
+    run = live.LiveRun(
+        scenario.Scenario("live", "A", snow_depth=1.0, dt=2e-4, duration=steps * 2e-4, options={"skip_rest": 0},
+                          **more), RunOptions(house="A", out=folder, no_views=True, quiet=quiet))
     folder_lock = ExitStack()
     assert folder_lock.enter_context(lock.locked(folder))
     run.start(folder_lock)
@@ -64,7 +66,8 @@ def test_the_prompt_shows_time_drift_and_events(tmp_path, monkeypatch, capfd):
     wait_for(lambda: not lock.is_locked(tmp_path))
     assert "live 0.30/0.40 s, drift below 1/1000, 0/206 joints broken" in texts and texts[-1] is None
     said = capfd.readouterr().out.splitlines()
-    assert sum(line.startswith("   0.00 s  collapse: ") for line in said) == 1 and said[-1] == f"next: scripts/show/show_run.py {tmp_path}"
+    assert sum(line.startswith("   0.00 s  collapse: ") for line in said) == 1
+    assert said[-1] == f"next: scripts/show/show_run.py {tmp_path}"
 
 
 def test_a_collapse_ends_the_run_on_request(tmp_path):
@@ -134,7 +137,8 @@ def test_results_before_the_end(tmp_path):
     first = json.loads((tmp_path / "live" / "summary.json").read_text())
     O.run(run.steps - O.iter)
     wait_for(lambda: not lock.is_locked(tmp_path / "live"))
-    options = RunOptions(house="A", out=tmp_path / "saved", no_views=True, quiet=True, resume=True, export=tmp_path / "a.json")
+    options = RunOptions(house="A", out=tmp_path / "saved", no_views=True, quiet=True, resume=True,
+                         export=tmp_path / "a.json")
     calm = scenario.Scenario("live", "A", snow_depth=1.0, dt=2e-4, duration=0.2, options={"skip_rest": 0})
     for stops in ((200, 400), (700, 1000)):  # the second time from the checkpoint
         (tmp_path / "a.json").unlink(missing_ok=True)
@@ -149,7 +153,9 @@ def test_results_before_the_end(tmp_path):
     for folder in ("live", "saved"):
         made = frames.load(tmp_path / folder / frames.NAME)
         assert len(set(made.time)) == len(made.time) and len(made.time) == len(made.position)
-        assert np.allclose(made.history.time, np.arange(made.history.samples) * 0.01) and made.history.samples >= 20 and len(set(made.contacts.time)) == len(made.contacts.time)
+        assert np.allclose(made.history.time, np.arange(made.history.samples) * 0.01)
+        assert made.history.samples >= 20
+        assert len(set(made.contacts.time)) == len(made.contacts.time)
     assert first["wall_s"] > 0 and 0.07 < first["duration_s"] < 0.2
 
 

@@ -29,12 +29,16 @@ def complete(name):
     if name == "StructureMonitor":
         return yw.StructureMonitor(bodies=[1, 2], parts=[0, 1])
     pair = {"mass": 1.0, "friction": 0.5, "shearRatio": 0.4, "overlapLimit": 0.1}
-    laws = {"ManifoldPhys": pair, "TimberPhys": {**pair, "modulus": 1e9, "radius": 0.1}, "SnowPhys": {**pair, "stiffness": 1e5}}
+    laws = {
+        "ManifoldPhys": pair, "TimberPhys": {**pair, "modulus": 1e9, "radius": 0.1},
+        "SnowPhys": {**pair, "stiffness": 1e5}
+    }
     return getattr(yw, name)(**laws.get(name, {}))
 
 
 REFUSED = [
-    *[(name, attribute, value) for name in ("TimberMat", "SnowMat") for attribute in ("density", "friction") for value in (-1.0, NAN, INF, "heavy", None)],
+    *[(name, attribute, value) for name in ("TimberMat", "SnowMat") for attribute in ("density", "friction")
+      for value in (-1.0, NAN, INF, "heavy", None)],
     ("TimberMat", "density", 0.0),
     ("TimberMat", "young", -5.0),
     ("TimberMat", "poisson", 9.0),
@@ -105,7 +109,9 @@ def test_each_class(name):
     with pytest.raises(AttributeError) as error:
         cls(notThere=1)
     is_one_line(error, "notThere")
-    for attribute, value in {"label": "mine", "dead": True, "ompThreads": 2, "color": Vector3(0, 1, 0), "wire": True, "execCount": 3}.items():
+    for attribute, value in {
+            "label": "mine", "dead": True, "ompThreads": 2, "color": Vector3(0, 1, 0), "wire": True, "execCount": 3
+    }.items():
         if hasattr(cls, attribute):
             setattr(target, attribute, value)
             assert getattr(target, attribute) == value
@@ -124,7 +130,10 @@ def test_each_class(name):
 
 
 RESULTS = {
-    "ContactForces": {"dashpotNormal", "dashpotShear", "friction", "jointDashpot", "released", "elasticNormal", "elasticShear", "newmark", "placed", "created", "worstChange", "unconverged", "sweepsMax"},
+    "ContactForces": {
+        "dashpotNormal", "dashpotShear", "friction", "jointDashpot", "released", "elasticNormal", "elasticShear",
+        "newmark", "placed", "created", "worstChange", "unconverged", "sweepsMax"
+    },
     "GroundMotionEngine": {"work"},
     "HouseMonitor": {"tiltTime", "collapseTime"},
     "JointBreak": {"time", "force"},
@@ -145,7 +154,9 @@ def test_nan_is_no_parameter(name):
             is_one_line(error, f"{name}.{attribute}")
 
 
-@pytest.mark.parametrize("name, wrong, right", [("RoundedPolyhedron", "radus", "radius"), ("TimberMat", "yung", "young"), ("ContactForces", "maxsweeps", "sweeps"), ("TimberMat", "dampingRatio", "")])
+@pytest.mark.parametrize("name, wrong, right",
+                         [("RoundedPolyhedron", "radus", "radius"), ("TimberMat", "yung", "young"),
+                          ("ContactForces", "maxsweeps", "sweeps"), ("TimberMat", "dampingRatio", "")])
 def test_misspelt_attribute(name, wrong, right):
     with pytest.raises(AttributeError) as error:
         setattr(complete(name), wrong, 1)
@@ -167,7 +178,8 @@ def test_subclass_in_python():
 def test_scene_saved_after_refused_values_loads(tmp_path):
     _, column = column_on_plate()
     body = O.bodies[column]
-    for target, attribute, value in ((body.shape, "radius", 0.3), (body.material, "young", -5), (body.material, "poisson", 9), (body.material, "density", -1)):
+    for target, attribute, value in ((body.shape, "radius", 0.3), (body.material, "young", -5),
+                                     (body.material, "poisson", 9), (body.material, "density", -1)):
         with pytest.raises((ValueError, RuntimeError)):
             setattr(target, attribute, value)
     O.save(str(tmp_path / "scene.xml"))

@@ -55,7 +55,8 @@ def test_part_of_a_body(part, value, words):
 def test_mass_changed_by_hand(mass):
     """The message does not blame the time step."""
     _, column = column_on_plate(health_check=10)
-    yt.scene.attributes._update_attributes(O.bodies[column].state, {"mass": mass})  # a door that no rule in Python watches
+    yt.scene.attributes._update_attributes(O.bodies[column].state,
+                                           {"mass": mass})  # a door that no rule in Python watches
     with pytest.raises(RuntimeError) as error:
         for _ in range(50):  # O.run may lose an exception of its thread
             O.step()
@@ -74,7 +75,12 @@ def test_other_shape_and_material_in_contact():
     is_one_line(error, "Ig2", "Sphere")
 
 
-@pytest.mark.parametrize("shape", [yw.Sphere(radius=0.1), yw.Facet(vertices=[(0, 0, 0), (1, 0, 0), (0, 1, 0)]), yw.Wall(), yw.Box(extents=(1, 1, 1))])
+@pytest.mark.parametrize(
+    "shape",
+    [yw.Sphere(radius=0.1),
+     yw.Facet(vertices=[(0, 0, 0), (1, 0, 0), (0, 1, 0)]),
+     yw.Wall(),
+     yw.Box(extents=(1, 1, 1))])
 def test_shape_without_functor(shape):
     column_on_plate()
     other = sphere()
@@ -91,7 +97,8 @@ def without(kind):
     return [e for e in O.engines if not isinstance(e, kind)]
 
 
-@pytest.mark.parametrize("kind", [yw.ForceResetter, yw.CollisionTrigger, yw.ContactLoop, yw.ContactForces, yw.SymplecticIntegrator])
+@pytest.mark.parametrize(
+    "kind", [yw.ForceResetter, yw.CollisionTrigger, yw.ContactLoop, yw.ContactForces, yw.SymplecticIntegrator])
 def test_missing_engine(kind):
     column_on_plate()
     O.engines = without(kind)
@@ -145,9 +152,12 @@ def test_joints_of_a_list():
     plate, column = column_on_plate()
     engine = find_engine(yw.JointEngine)
     joint = engine.joints[0]
-    for other, words in ((joint, "same joint"), (yw.TimberJoint(id1=plate, id2=plate), "two bodies"), (yw.TimberJoint(id1=plate, id2=99), "two bodies")):
+    for other, words in ((joint, "same joint"), (yw.TimberJoint(id1=plate, id2=plate), "two bodies"), (yw.TimberJoint(
+            id1=plate, id2=99), "two bodies")):
         if other is not joint:
-            other.updateAttrs({name: getattr(joint, name) for name in ("anchors1", "anchors2", "normal", "kn", "ks", "strength")})
+            other.updateAttrs(
+                {name: getattr(joint, name)
+                 for name in ("anchors1", "anchors2", "normal", "kn", "ks", "strength")})
         O.engines = [yw.JointEngine() if isinstance(e, yw.JointEngine) else e for e in O.engines]
         for one in (joint, other):
             find_engine(yw.JointEngine).append(one)
@@ -244,7 +254,8 @@ def test_peaks_of_a_wall_are_shears():
     yt.connect(plate, block, [(0, 0, 0.5)], normal=(0, 0, 1), stiffness=(1e5, 0), strength=1e4, damping_ratio=1.0)
     O.run(5000, True)
     weight = 9.81 * O.bodies[block].state.mass
-    assert monitor.pull[0] == 0 and monitor.shear[0] == pytest.approx(weight, rel=1e-6)  # critically damped: no overshoot; observed 4e-12
+    assert monitor.pull[0] == 0 and monitor.shear[0] == pytest.approx(
+        weight, rel=1e-6)  # critically damped: no overshoot; observed 4e-12
 
 
 def test_reset_time_keeps_the_monitors():
@@ -258,7 +269,10 @@ def test_reset_time_keeps_the_monitors():
     assert len(monitor.rows) >= 2 * before - 8 > before
 
 
-@pytest.mark.parametrize("kind", [yw.ForceResetter, yw.CollisionTrigger, yw.ContactLoop, yw.JointEngine, yw.UniformGravity, yw.ContactForces, yw.SymplecticIntegrator, yw.HealthCheck])
+@pytest.mark.parametrize("kind", [
+    yw.ForceResetter, yw.CollisionTrigger, yw.ContactLoop, yw.JointEngine, yw.UniformGravity, yw.ContactForces,
+    yw.SymplecticIntegrator, yw.HealthCheck
+])
 def test_doubled_engine(kind):
     column_on_plate()
     O.engines = [e for e in O.engines for _ in range(1 + isinstance(e, kind))]
@@ -310,7 +324,8 @@ def test_engines_of_an_earlier_scene():
     O.step()
 
 
-@pytest.mark.parametrize("dispatcher, words", [("geomDispatcher", "Ig2"), ("physDispatcher", "Ip2"), ("lawDispatcher", "Law2")])
+@pytest.mark.parametrize("dispatcher, words", [("geomDispatcher", "Ig2"), ("physDispatcher", "Ip2"),
+                                               ("lawDispatcher", "Law2")])
 def test_loop_without_functors(dispatcher, words):
     O.reset()
     O.bodies.append([yt.box((1, 1, 1), (0, 0, z)) for z in (0, 1)])

@@ -127,7 +127,8 @@ def test_part_replaced_by_a_hidden_door(name, value, words):
     refused(*words)
 
 
-@pytest.mark.parametrize("name, value", [("shape", None), ("shape", yw.Sphere(radius=0.1)), ("material", None), ("state", None), ("state", yw.State()), ("id", 7)])
+@pytest.mark.parametrize("name, value", [("shape", None), ("shape", yw.Sphere(radius=0.1)), ("material", None),
+                                         ("state", None), ("state", yw.State()), ("id", 7)])
 def test_part_replaced_by_update(name, value):
     """As an assignment: refused at once, or before the next step."""
     _, column = column_on_plate()
@@ -167,7 +168,11 @@ def test_bodies_cleared():
     O.bodies.clear()
     O.engines = [e for e in O.engines if not isinstance(e, yw.JointEngine)]
     O.step()
-    O.bodies.append([yt.box((1, 1, 0.2), (0, 0, -0.1), fixed=True), yt.box((0.1, 0.1, 0.1), (0, 0, 0.05)), yt.box((0.1, 0.1, 0.1), (0, 0, 1))])
+    O.bodies.append([
+        yt.box((1, 1, 0.2), (0, 0, -0.1), fixed=True),
+        yt.box((0.1, 0.1, 0.1), (0, 0, 0.05)),
+        yt.box((0.1, 0.1, 0.1), (0, 0, 1))
+    ])
     O.run(200, True)
     assert abs(O.bodies[1].state.pos[2] - 0.05) < 1e-4 and O.bodies[2].state.pos[2] < 0.999
 
@@ -184,7 +189,10 @@ def test_bodies_cleared_and_replaced():
     O.step()
 
 
-@pytest.mark.parametrize("update", [lambda s: setattr(s, "angVel", (0, 0, 5)), lambda s: s.updateAttrs({"angVel": Vector3(0, 0, 5)}), lambda s: raw_update(s, {"angVel": Vector3(0, 0, 5)})])
+@pytest.mark.parametrize("update", [
+    lambda s: setattr(s, "angVel", (0, 0, 5)), lambda s: s.updateAttrs({"angVel": Vector3(0, 0, 5)}),
+    lambda s: raw_update(s, {"angVel": Vector3(0, 0, 5)})
+])
 def test_angular_velocity_set_by_hand(update):
     O.reset()
     body = O.bodies.append(yt.box((0.3, 0.3, 0.1), (0, 0, 2)))
@@ -230,7 +238,10 @@ def test_joint_points_far_from_both_bodies():
     yt.connect(plate, column, [(0, 0, -2)])  # in reach of the plate
 
 
-BAD = {float: math.inf, Vector3: Vector3(math.nan, 0, 0), yw.State().ori.__class__: yw.State().ori.__class__(math.nan, 0, 0, 0)}
+BAD = {
+    float: math.inf, Vector3: Vector3(math.nan, 0, 0),
+    yw.State().ori.__class__: yw.State().ori.__class__(math.nan, 0, 0, 0)
+}
 """Type of an attribute -> a value that is not finite."""
 
 
@@ -241,7 +252,8 @@ def parts_of_a_scene():
     loop, collider = find_engine(yw.ContactLoop).loop, find_engine(yw.CollisionTrigger).collider
     dispatchers = (loop.geomDispatcher, loop.physDispatcher, loop.lawDispatcher, collider.boundDispatcher)
     yield from (*O.engines, loop, collider, *(functor for dispatcher in dispatchers for functor in dispatcher.functors))
-    yield from (find_engine(yw.JointEngine).joints[0], body.state, body.shape, body.material, body.bound, contact, contact.geom, contact.phys)
+    yield from (find_engine(yw.JointEngine).joints[0], body.state, body.shape, body.material, body.bound, contact,
+                contact.geom, contact.phys)
 
 
 def test_values_that_are_not_finite():
@@ -257,10 +269,12 @@ def test_values_that_are_not_finite():
             before, default = getattr(part, name), getattr(type(part)(), name)
             if type(before) not in BAD or repr(default) in ("inf", "nan"):
                 continue
-            for door in (lambda value: setattr(part, name, value), lambda value: part.updateAttrs({name: value}), lambda value: type(part)(**{name: value})):
+            for door in (lambda value: setattr(part, name, value), lambda value: part.updateAttrs({name: value}),
+                         lambda value: type(part)(**{name: value})):
                 with pytest.raises((ValueError, AttributeError)) as error:
                     door(BAD[type(before)])
-                is_one_line(error, "" if "nan" in repr(type(part)().dict()) else name)  # a required attribute is missing first
+                is_one_line(error,
+                            "" if "nan" in repr(type(part)().dict()) else name)  # a required attribute is missing first
                 assert repr(getattr(part, name)) == repr(before)
                 count += 1
     O.run(20, True)

@@ -58,8 +58,11 @@ def test_turned():
     """North shakes along +x after 90 degrees; 360 degrees change nothing; lengths are preserved."""
     motion = tone()
     quarter = gm.turned(motion, 90.0)
-    assert np.array_equal(quarter.ew, motion.ns) and np.array_equal(quarter.ns, -motion.ew) and np.array_equal(quarter.ud, motion.ud)
-    assert np.array_equal(gm.turned(motion, 360.0).acceleration, motion.acceleration) and gm.turned(motion, 0.0) is motion
+    assert np.array_equal(quarter.ew, motion.ns)
+    assert np.array_equal(quarter.ns, -motion.ew)
+    assert np.array_equal(quarter.ud, motion.ud)
+    assert np.array_equal(gm.turned(motion, 360.0).acceleration, motion.acceleration)
+    assert gm.turned(motion, 0.0) is motion
     assert gm.pga(gm.turned(motion, 33.0), "h") == pytest.approx(gm.pga(motion, "h"))
 
 

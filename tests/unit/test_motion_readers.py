@@ -16,9 +16,11 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
 
-from yade_timber.motion import GAL, GroundMotion, MotionRequest, RecordError, RecordWarning, read_motion, trim, write_csv
+from yade_timber.motion import (GAL, GroundMotion, MotionRequest, RecordError, RecordWarning, read_motion, trim,
+                                write_csv)
 from yade_timber.motion.readers import find_files
 from yade_timber.motion.record import STANDARD_GRAVITY
+from yade_timber.motion.text import direction_of
 
 pytestmark = pytest.mark.filterwarnings("ignore:.*constant part")  # of the few samples below
 N = 40
@@ -63,15 +65,21 @@ def at2_text(values_gal, direction, card="NPTS=  {n}, DT=   .0200 SEC,", title="
 
 
 KNET_CSV_HEAD = [
-    *("#K-NET CSV", "#Event", "#OriginTime,Latitude,Longitude,Depth(km),Magnitude", "#2020/02/02 02:02:00,35.000,135.000,10,6.0", "#Station"),
-    *("#Code,Latitude,Longitude,Height(m)", "#XXX001,35.1000,135.1000,10", "#Record", "#SamplingFrequency(Hz)", "#10", "#DurationTime(s)", "#{duration}"),
+    *("#K-NET CSV", "#Event", "#OriginTime,Latitude,Longitude,Depth(km),Magnitude",
+      "#2020/02/02 02:02:00,35.000,135.000,10,6.0", "#Station"),
+    *("#Code,Latitude,Longitude,Height(m)", "#XXX001,35.1000,135.1000,10", "#Record", "#SamplingFrequency(Hz)", "#10",
+      "#DurationTime(s)", "#{duration}"),
     *("#Offset", "#N-S(gal),E-W(gal),U-D(gal)", "#0.10,1.70,16.50"),
 ]
 
 
-def knet_csv_text(columns="N-S(gal),E-W(gal),U-D(gal)", factors=(1, 1, 1), head=KNET_CSV_HEAD, duration=N // 10, clock=True):
+def knet_csv_text(columns="N-S(gal),E-W(gal),U-D(gal)", factors=(1, 1, 1), head=KNET_CSV_HEAD, duration=N // 10,
+                  clock=True):
     """NIED's CSV: offsets of 0.1, 1.7, 16.5 gal left in; a factor on the wave of each column."""
-    waves = [factor * WAVES[name] + offset for name, offset, factor in zip(("ns", "ew", "ud") * 2, (0.1, 1.7, 16.5) * 2, factors)]
+    waves = [
+        factor * WAVES[name] + offset
+        for name, offset, factor in zip(("ns", "ew", "ud") * 2, (0.1, 1.7, 16.5) * 2, factors)
+    ]
     names = f"#{'Time,' * clock}RelativeTime(s),{columns}"
     times = [(f"2020/02/02 02:02:{10 + k / 10:05.2f}," if clock else "") + f"{k / 10:.2f}" for k in range(N)]
     rows = [",".join([time, *(f"{value:.4f}" for value in row)]) for time, row in zip(times, np.transpose(waves))]
@@ -132,6 +140,19 @@ def test_kiknet_surface_is_taken_and_borehole_can_be_named(tmp_path):
     same_waves(read_motion(files), KNET_ROUNDING)
 
 
+@pytest.mark.parametrize("lost", ["UD2", "NS1"])
+def test_kiknet_with_a_file_missing(tmp_path, lost):
+    """Of the surface: an error, not the borehole; of the borehole: of no account."""
+    for sensor in "12":
+        knet_record(tmp_path, sensor, directions="123")
+    (tmp_path / f"TST001.{lost}").unlink()
+    if lost == "NS1":
+        assert "TST001.NS2" in read_motion(tmp_path / "TST001").source
+    else:
+        with pytest.raises(RecordError, match="found only TST001.EW2, TST001.NS2"):
+            read_motion(tmp_path / "TST001")
+
+
 def test_single_knet_file_leaves_the_others_zero(tmp_path):
     knet_record(tmp_path)
     motion = read_motion(tmp_path / "TST001.EW")
@@ -149,14 +170,16 @@ def test_knet_peak_other_than_its_header_warns(tmp_path):
 @pytest.mark.parametrize("date", ["2004/10/23", "0/10/23", "1/1/1", "9999999999/10/23"])
 def test_a_start_time_that_cannot_be_read_is_a_note(tmp_path, date, time):
     path = write(tmp_path, "a.NS", knet_text(WAVES["ns"], "N-S").replace("2004/10/23 17:56:20", f"{date} {time}"))
-    with pytest.warns(RecordWarning, match="a.NS:10: Record Time: .* is not a date and time .*; the record is read without it"):
+    with pytest.warns(RecordWarning,
+                      match="a.NS:10: Record Time: .* is not a date and time .*; the record is read without it"):
         motion = read_motion(path)
     assert motion.begins is None and motion.pga_gal["ns"] > 90
 
 
 @pytest.mark.parametrize("label", ["Record Time", "Max. Acc. (gal)"])
 def test_knet_without_an_optional_line(tmp_path, label):
-    text = "".join(line if not line.startswith(label) else "Memo.\n" for line in knet_text(WAVES["ns"], "N-S").splitlines(True))
+    text = "".join(
+        line if not line.startswith(label) else "Memo.\n" for line in knet_text(WAVES["ns"], "N-S").splitlines(True))
     assert read_motion(write(tmp_path, "a.NS", text)).pga_gal["ns"] > 90
 
 
@@ -168,7 +191,9 @@ KNET_CSVS = {
     "K-NET": {},
     "without a date": {"clock": False},
     "KiK-net, channels numbered": {"columns": SURFACE_LAST.format("1", "2"), "factors": (3, 3, 3, 1, 1, 1)},
-    "KiK-net, sensors named": {"columns": SURFACE_LAST.format("[Surface]", "[Borehole]"), "factors": (1, 1, 1, 3, 3, 3)},
+    "KiK-net, sensors named": {
+        "columns": SURFACE_LAST.format("[Surface]", "[Borehole]"), "factors": (1, 1, 1, 3, 3, 3)
+    },
     "KiK-net, names repeated": {"columns": SURFACE_LAST.format("", ""), "factors": (3, 3, 3, 1, 1, 1)},
     "without an offset": {"head": KNET_CSV_HEAD[:12]},
     "without labels": {"head": []},
@@ -247,7 +272,8 @@ def test_at2_prefix_with_compass_letters(tmp_path):
 @pytest.mark.parametrize("ends", [("-E", "-N", "-V"), ("_e", "_n", "_z")])
 def test_at2_prefix_with_single_letters(tmp_path, ends):
     for end in ends:
-        write(tmp_path, f"CHICHI{end}.AT2", "PEER\n" + f"A, 1, STA, {end[1:].upper()}\nACCELERATION IN UNITS OF G\nNPTS=  3, DT= .01 SEC\n.1 .2 .3\n")
+        write(tmp_path, f"CHICHI{end}.AT2",
+              "PEER\n" + f"A, 1, STA, {end[1:].upper()}\nACCELERATION IN UNITS OF G\nNPTS=  3, DT= .01 SEC\n.1 .2 .3\n")
     assert [path.name for path in find_files(tmp_path / "CHICHI")] == [f"CHICHI{end}.AT2" for end in ends]
 
 
@@ -260,7 +286,10 @@ def test_numbers_of_fortran_and_the_end_of_a_dos_file(tmp_path):
     assert read_motion(path).ns / GAL == pytest.approx([-0.1416764e-3, 0.01, 2.0])
 
 
-@pytest.mark.parametrize("head", ["# dt: 0.01,,\nns [gal],ew [gal],,\n", '"# dt: 0.01",,\n"ns [gal]","ew [gal]",,\n', "# dt: 0.01;;\nns [gal];ew [gal];;\n"])
+@pytest.mark.parametrize("head", [
+    "# dt: 0.01,,\nns [gal],ew [gal],,\n", '"# dt: 0.01",,\n"ns [gal]","ew [gal]",,\n',
+    "# dt: 0.01;;\nns [gal];ew [gal];;\n"
+])
 def test_csv_from_a_spreadsheet(tmp_path, head):
     """Quoted comments, short rows filled with delimiters."""
     rows = "1,2,,\n3,4,,\n" if "," in head else "1;2;;\n3;4;;\n"
@@ -320,7 +349,8 @@ def test_jma_start_times(tmp_path, text, start):
     assert read_motion(path).begins == start
 
 
-@pytest.mark.parametrize("text", ["95 01 17", "95 13 17 05 47 31", "****", "195 01 17 05 47 31", "95 01 17 25 47 31", "19950117054731"])
+@pytest.mark.parametrize(
+    "text", ["95 01 17", "95 13 17 05 47 31", "****", "195 01 17 05 47 31", "95 01 17 25 47 31", "19950117054731"])
 def test_jma_start_time_that_cannot_be_read(tmp_path, text):
     path = write(tmp_path, "jma.csv", JMA_OLD.replace("2004 10 23 17 56 00", text) + "1,2,3\n-1,-2,-3\n", "cp932")
     with pytest.warns(RecordWarning, match="jma.csv:6: 'INITIAL TIME': .*the record is read without it"):
@@ -346,6 +376,10 @@ def csv_text(head, columns=("ns", "ew", "ud"), dt=None):
         (csv_text("# unit = cm/s2\n# sampling: 50 Hz\nUD,N-S,E-W", ("ud", "ns", "ew")), "gal"),
         (csv_text("# units: gal\n# dt: 0.02\nns;ew;ud").replace(",", ";"), None),
         (csv_text("# units: gal\n# time,ns,ew,ud", dt=0.02), None),
+        (csv_text("# NPTS: 40, from an AT2 file\n# units: gal\n# dt: 0.02\nns,ew,ud"), None),
+        (csv_text("# units: gal\n# dt: 0.02\nns,ew,ud\n# values") + "# end of record\n", None),
+        (csv_text("# units: gal\n# dt: 0.02\nns,ew,ud").replace(",", '" , "'), None),
+        (csv_text("# dt: 0.02\n# sampling: 50 Hz\n# dt: 0.02\nns_gal,ew_gal,ud_gal"), None),
     ],
 )
 def test_plain_csv_forms(tmp_path, text, units):
@@ -353,6 +387,25 @@ def test_plain_csv_forms(tmp_path, text, units):
     assert motion.dt == pytest.approx(0.02)
     for name, wave in WAVES.items():
         np.testing.assert_allclose(getattr(motion, name) / GAL, wave, atol=1e-5)
+
+
+@pytest.mark.parametrize("rate, digits", [(256, 3), (200, 2)])
+def test_rounded_times_beside_a_stated_step(tmp_path, rate, digits):
+    rows = "\n".join(f"{k / rate:.{digits}f},{v:.6f}" for k, v in enumerate(WAVES["ns"]))
+    path = write(tmp_path, "a.csv", f"# dt: {1 / rate}\ntime,ns_gal\n{rows}\n")
+    assert read_motion(path).dt == 1 / rate
+
+
+@pytest.mark.parametrize("component, azimuth", [
+    ("-90", 270), ("22.5", 22.5), ("0.5", 0.5), ("45.0", 45), ("360", 0), ("090", 90), ("N-S", 0), ("-UP", "up"),
+    ("361", None), ("-1e9", None), ("nan", None), ("north-west", None)])
+def test_directions(component, azimuth):
+    assert direction_of(component) == azimuth
+
+
+def test_a_turn_of_360_degrees_is_none(tmp_path):
+    path = write(tmp_path, "a000.AT2", at2_text(WAVES["ns"], "360"))
+    assert np.abs(read_motion(path).ns / GAL - WAVES["ns"]).max() < 1e-3
 
 
 def test_units_scale(tmp_path):
@@ -390,51 +443,83 @@ REFUSALS = {  # name of the file, its text, place and members in the message
     "unknown format": ("a.txt", lambda: "hello\nworld\n", f"a.txt: unknown record format; {HOW}.*K-NET"),
     "numbers alone": ("a.txt", lambda: "0.0 1.0\n0.1 2.0\n", f"a.txt: unknown record format; {HOW}"),
     "unknown columns": ("a.csv", lambda: "t,AccX,AccY\n0,1,2\n", f"a.csv: unknown record format; {HOW}"),
-    "COSMOS": ("a.V2", lambda: "Corrected acceleration    (Format v01.20 with 13 text lines)\n", f"a.V2: COSMOS format.*; {HOW}"),
-    "GeoNet": ("a.V2A", lambda: "Corrected accelerogram\nGeoNet site 163541 CHHC\n", f"a.V2A: GeoNet V1 to V3 format.*; {HOW}"),
-    "CSMIP": ("a.V2", lambda: "CORRECTED ACCELEROGRAM 24278-S2486-94020.01\nSTATION\n", f"a.V2: CSMIP V1 to V3 format.*; {HOW}"),
+    "COSMOS": ("a.V2", lambda: "Corrected acceleration    (Format v01.20 with 13 text lines)\n",
+               f"a.V2: COSMOS format.*; {HOW}"),
+    "GeoNet": ("a.V2A", lambda: "Corrected accelerogram\nGeoNet site 163541 CHHC\n",
+               f"a.V2A: GeoNet V1 to V3 format.*; {HOW}"),
+    "CSMIP": ("a.V2", lambda: "CORRECTED ACCELEROGRAM 24278-S2486-94020.01\nSTATION\n",
+              f"a.V2: CSMIP V1 to V3 format.*; {HOW}"),
     "SMC": ("a.smc", lambda: "2 CORRECTED ACCELEROGRAM\n*\n", f"a.smc: SMC .*; {HOW}"),
     "ESM": ("a.ASC", lambda: "EVENT_NAME: NORCIA\nEVENT_ID: X\n", f"a.ASC: ESM or ITACA format.*; {HOW}"),
     "miniSEED": ("a.mseed", lambda: "000001D IU COLO" + "\0" * 500, f"a.mseed: miniSEED, which is not read; {HOW}"),
     "SAC": ("a.sac", lambda: "\0" * 304 + "\6\0\0\0" + "\0" * 500, f"a.sac: SAC, which is not read; {HOW}"),
     "archive": ("a.zip", lambda: "PK\3\4\0\0", "a.zip: archive .*; unpack it"),
-    "DT before NPTS": ("a000.AT2", lambda: at2_text(WAVES["ns"], "0", "DT= .02 SEC, NPTS= {n}"), f"a000.AT2:4: .*NPTS first, or {HOW}"),
+    "DT before NPTS": ("a000.AT2", lambda: at2_text(WAVES["ns"], "0", "DT= .02 SEC, NPTS= {n}"),
+                       f"a000.AT2:4: .*NPTS first, or {HOW}"),
     "no NPTS": ("a000.AT2", lambda: at2_text(WAVES["ns"], "0", "NPTS"), f"a000.AT2: AT2 header without .*{HOW}"),
-    "two samples too many": ("a000.AT2", lambda: at2_text(WAVES["ns"], "0", "NPTS= 38, DT= .02 SEC"), f"a000.AT2: too long, 40 .*NPTS says 38.*{HOW}"),
-    "truncated K-NET CSV": ("a.csv", lambda: knet_csv_text(duration=5), f"a.csv: truncated, 40 samples; DurationTime .*50.*{HOW}"),
-    "K-NET CSV without columns": ("a.csv", lambda: "#K-NET CSV\n#Event\n1,2\n", f"a.csv: K-NET CSV without a row.*{HOW}"),
-    "gap in K-NET CSV": ("a.csv", lambda: knet_csv_text().replace("\n2020/02/02 02:02:11.00", "\n2020/02/02 02:02:11.00,1.04,1,1,1\n#"), "a.csv:"),
+    "two samples too many": ("a000.AT2", lambda: at2_text(WAVES["ns"], "0", "NPTS= 38, DT= .02 SEC"),
+                             f"a000.AT2: too long, 40 .*NPTS says 38.*{HOW}"),
+    "truncated K-NET CSV": ("a.csv", lambda: knet_csv_text(duration=5),
+                            f"a.csv: truncated, 40 samples; DurationTime .*50.*{HOW}"),
+    "K-NET CSV without columns": ("a.csv", lambda: "#K-NET CSV\n#Event\n1,2\n",
+                                  f"a.csv: K-NET CSV without a row.*{HOW}"),
+    "gap in K-NET CSV": ("a.csv", lambda: knet_csv_text().replace("\n2020/02/02 02:02:11.00",
+                                                                  "\n2020/02/02 02:02:11.00,1.04,1,1,1\n#"), "a.csv:"),
     "empty": ("a.txt", lambda: "", "a.txt"),
     "no unit": ("a.csv", lambda: csv_text("# dt: 0.02\nns,ew,ud"), "a.csv: .*units="),
-    "contradicting units": ("a.csv", lambda: csv_text("# units: g\n# dt: 0.02\nns_gal,ew_gal,ud_gal"), "a.csv: .*g, gal"),
+    "contradicting units": ("a.csv", lambda: csv_text("# units: g\n# dt: 0.02\nns_gal,ew_gal,ud_gal"),
+                            "a.csv: .*g, gal"),
     "unknown unit": ("a.csv", lambda: csv_text("# units: furlong\n# dt: 0.02\nns,ew,ud"), "a.csv: .*'furlong'"),
     "no step": ("a.csv", lambda: csv_text("# units: gal\nns,ew,ud"), "a.csv: .*# dt"),
     "time in minutes": ("a.csv", lambda: csv_text("time [min],ns [gal],ew [gal],ud [gal]", dt=0.02), "a.csv: .*'min'"),
     "dt of zero": ("a.csv", lambda: csv_text("# units: gal\n# dt: 0\nns,ew,ud"), "a.csv:2: dt: .*0.0001 and 1 s"),
-    "dt of a nanosecond": ("a.csv", lambda: csv_text("# units: gal\n# dt: 1e-9\nns,ew,ud"), "a.csv:2: dt: .*0.0001 and 1 s"),
+    "dt of a nanosecond": ("a.csv", lambda: csv_text("# units: gal\n# dt: 1e-9\nns,ew,ud"),
+                           "a.csv:2: dt: .*0.0001 and 1 s"),
     "gap in time": ("a.csv", lambda: "# units: gal\ntime,ns\n0,1\n0.01,1\n0.02,1\n0.04,1\n", "a.csv: sample"),
     "short row": ("a.csv", lambda: "# units: gal\n# dt: 0.01\nns,ew\n1,2\n3\n", "a.csv:5: 1 values.* 2 "),
-    "fewer rows than stated": ("a.csv", lambda: "# units: gal\n# dt: 1\n# samples: 3\nns\n1\n2\n", "a.csv: .*2 samples.*# samples.* 3"),
-    "samples of 1e300": ("a.csv", lambda: csv_text("# units: gal\n# dt: 1\n# samples: 1e300\nns,ew,ud"), "a.csv:3: samples: '1e300'"),
+    "fewer rows than stated": ("a.csv", lambda: "# units: gal\n# dt: 1\n# samples: 3\nns\n1\n2\n",
+                               "a.csv: .*2 samples.*# samples.* 3"),
+    "step against rate": ("a.csv", lambda: csv_text("# dt: 0.02\n# sampling: 100 Hz\nns_gal,ew_gal,ud_gal"),
+                          "a.csv:1: dt: 0.02 s contradicts"),
+    "two steps": ("a.csv", lambda: csv_text("# dt: 0.02\n# dt: 0.01\nns_gal,ew_gal,ud_gal"),
+                  "a.csv:2: dt: '0.01' contradicts '0.02'"),
+    "two units": ("a.csv", lambda: csv_text("# units: gal\n# units: g\n# dt: 0.02\nns,ew,ud"),
+                  "a.csv:2: units: 'g' contradicts 'gal'"),
+    "underscores": ("a.csv", lambda: "# units: gal\n# dt: 1\nns\n1\n1_000\n", "a.csv:5: '1_000'"),
+    "underscores in AT2": ("a000.AT2", lambda: at2_text(WAVES["ns"], "0").replace("0.0", "0_0", 1), "a000.AT2:"),
+    "samples of 1e300": ("a.csv", lambda: csv_text("# units: gal\n# dt: 1\n# samples: 1e300\nns,ew,ud"),
+                         "a.csv:3: samples: '1e300'"),
     "NaN in CSV": ("a.csv", lambda: "# units: gal\n# dt: 0.01\nns\n1\nnan\n", "a.csv:5: 'nan'"),
-    "truncated AT2": ("a000.AT2", lambda: at2_text(WAVES["ns"], "0", "NPTS= 50, DT= .02 SEC"), "a000.AT2: .*40 samples; NPTS .*50"),
+    "truncated AT2": ("a000.AT2", lambda: at2_text(WAVES["ns"], "0", "NPTS= 50, DT= .02 SEC"),
+                      "a000.AT2: .*40 samples; NPTS .*50"),
     "long AT2": ("a000.AT2", lambda: at2_text(WAVES["ns"], "0", "NPTS= 30, DT= .02 SEC"), "a000.AT2: .*NPTS .*30"),
-    "AT2 of many digits": ("a000.AT2", lambda: at2_text(WAVES["ns"], "0", f"NPTS= {'9' * 900}, DT= .02 SEC"), "a000.AT2:4: NPTS"),
+    "AT2 of many digits": ("a000.AT2", lambda: at2_text(WAVES["ns"], "0", f"NPTS= {'9' * 900}, DT= .02 SEC"),
+                           "a000.AT2:4: NPTS"),
     "NaN in AT2": ("a000.AT2", lambda: at2_text(np.r_[WAVES["ns"][:-1], np.nan], "0"), "a000.AT2:12: 'NAN'"),
     "word in AT2": ("a000.AT2", lambda: at2_text(WAVES["ns"], "0") + "what\n", "a000.AT2:13: 'what'"),
-    "AT2 without unit": ("a000.AT2", lambda: at2_text(WAVES["ns"], "0").replace(" IN UNITS OF G", ""), "a000.AT2: .*units="),
-    "unit of many words": ("a000.AT2", lambda: at2_text(WAVES["ns"], "0").replace("UNITS OF G", "units " * 150), "a000.AT2: .*'units'"),
-    "velocity": ("a000.VT2", lambda: at2_text(WAVES["ns"], "0").replace("ACCELERATION", "VELOCITY"), "a000.VT2:3: velocity"),
+    "AT2 without unit": ("a000.AT2", lambda: at2_text(WAVES["ns"], "0").replace(" IN UNITS OF G", ""),
+                         "a000.AT2: .*units="),
+    "unit of many words": ("a000.AT2", lambda: at2_text(WAVES["ns"], "0").replace("UNITS OF G", "units " * 150),
+                           "a000.AT2: .*'units'"),
+    "velocity": ("a000.VT2", lambda: at2_text(WAVES["ns"], "0").replace("ACCELERATION", "VELOCITY"),
+                 "a000.VT2:3: velocity"),
     "title against name": ("a090.AT2", lambda: at2_text(WAVES["ns"], "0"), "a090.AT2: .*component="),
-    "truncated K-NET": ("a.NS", lambda: knet_text(WAVES["ns"], "N-S", duration=5), "a.NS: .*40 samples; Duration Time .*50"),
+    "truncated K-NET": ("a.NS", lambda: knet_text(WAVES["ns"], "N-S", duration=5),
+                        "a.NS: .*40 samples; Duration Time .*50"),
     "K-NET header cut": ("a.NS", lambda: "Origin Time  2004/10/23\nLat. 3\n", "a.NS: .*'Record Time'"),
-    "scale of K-NET": ("a.NS", lambda: knet_text(WAVES["ns"], "N-S").replace("/2000000", "/0"), "a.NS:14: Scale Factor"),
-    "scale of two points": ("a.NS", lambda: knet_text(WAVES["ns"], "N-S").replace("2000(gal)", "1.2.3(gal)"), "a.NS:14: Scale Factor: '1.2.3'"),
+    "scale of K-NET": ("a.NS", lambda: knet_text(WAVES["ns"], "N-S").replace("/2000000", "/0"),
+                       "a.NS:14: Scale Factor"),
+    "scale of two points": ("a.NS", lambda: knet_text(WAVES["ns"], "N-S").replace("2000(gal)", "1.2.3(gal)"),
+                            "a.NS:14: Scale Factor: '1.2.3'"),
     "JMA without rate": ("a.csv", lambda: "SITE CODE=1\nUNIT=gal\nNS,EW,UD\n1,2,3\n1,2,3\n", "a.csv: .*SAMPLING RATE"),
-    "JMA rate of zero": ("a.csv", lambda: "SITE CODE=1\nSAMPLING RATE=0Hz\nUNIT=gal\nNS,EW,UD\n1,2,3\n1,2,3\n", "a.csv:2: 'SAMPLING RATE'"),
-    "JMA without unit": ("a.csv", lambda: "SITE CODE=1\nSAMPLING RATE=100Hz\nNS,EW,UD\n1,2,3\n1,2,3\n", "a.csv: .*units="),
-    "impossible acceleration": ("a.csv", lambda: "# units: g\n# dt: 0.01\nns\n1\n120\n", "a.csv: .*1.18e[+]03 m/s2.* 1000 m/s2"),
-    "long line": ("a.csv", lambda: "# " + "a" * 100_000 + "\n" + csv_text("# units: gal\n# dt: 0.02\nns,ew,ud"), "a.csv:1: .*100002 .* 1000"),
+    "JMA rate of zero": ("a.csv", lambda: "SITE CODE=1\nSAMPLING RATE=0Hz\nUNIT=gal\nNS,EW,UD\n1,2,3\n1,2,3\n",
+                         "a.csv:2: 'SAMPLING RATE'"),
+    "JMA without unit": ("a.csv", lambda: "SITE CODE=1\nSAMPLING RATE=100Hz\nNS,EW,UD\n1,2,3\n1,2,3\n",
+                         "a.csv: .*units="),
+    "impossible acceleration": ("a.csv", lambda: "# units: g\n# dt: 0.01\nns\n1\n120\n",
+                                "a.csv: .*1.18e[+]03 m/s2.* 1000 m/s2"),
+    "long line": ("a.csv", lambda: "# " + "a" * 100_000 + "\n" + csv_text("# units: gal\n# dt: 0.02\nns,ew,ud"),
+                  "a.csv:1: .*100002 .* 1000"),
     "long comment": ("a.csv", lambda: "#" + " a" * 450 + "\n" + csv_text("# dt: 0.02\nns,ew,ud"), "a.csv: .*units="),
     "long unit of a column": ("a.csv", lambda: csv_text("# dt: 0.02\nns [" + " _" * 400 + "x,ew,ud"), "a.csv: "),
     "many samples": ("a.csv", lambda: "# units: gal\n# dt: 0.01\nns\n" + "1\n" * 200_001, "a.csv:200004: .*200000"),
@@ -455,13 +540,16 @@ def test_refusals_name_file_line_and_member(tmp_path, name, text, message):
 
 def test_paths_that_are_no_file(tmp_path):
     os.mkfifo(tmp_path / "pipe.csv")
-    for record in ("", "9" * 30, "9" * 5000, "," * 5000, "~no-such-user/x", "a/" * 3000, "a\0b", "\udcff", "/dev/zero", "/dev/zero,/dev/zero", tmp_path / "pipe.csv"):
+    for record in ("", "9" * 30, "9" * 5000, "," * 5000, "~no-such-user/x", "a/" * 3000, "a\0b", "\udcff", "/dev/zero",
+                   "/dev/zero,/dev/zero", tmp_path / "pipe.csv"):
         with pytest.raises(RecordError) as caught:
             read_motion(record)
         assert str(caught.value).isprintable()
 
 
-@pytest.mark.parametrize("name, value", [("seed", 10**29), ("seed", 10**400), ("detrend", 10**400), ("azimuth", np.inf), ("azimuth", np.nan), ("pga", np.inf), ("highpass", 1e308), ("scale", 1e308), ("record", "")])
+@pytest.mark.parametrize("name, value", [("seed", 10**29), ("seed", 10**400), ("detrend", 10**400), ("azimuth", np.inf),
+                                         ("azimuth", np.nan), ("pga", np.inf), ("highpass", 1e308), ("scale", 1e308),
+                                         ("record", "")])
 def test_options_out_of_range(name, value):
     """The message opens with the option, or with the file's name where that is empty."""
     with pytest.raises(RecordError) as caught:
@@ -514,7 +602,8 @@ def test_components_that_do_not_fit(tmp_path):
     askew = write(tmp_path, "C045.AT2", at2_text(WAVES["ew"], "45"))
     with pytest.raises(RecordError, match="different length"):
         read_motion(f"{a},{short}")
-    assert len(read_motion(f"{a},{short}", trim_to_shortest=True)) == len(MotionRequest(record=f"{a},{short}", shortest=True).motion(0.02)) == N - 3
+    assert len(read_motion(f"{a},{short}", trim_to_shortest=True)) == len(
+        MotionRequest(record=f"{a},{short}", shortest=True).motion(0.02)) == N - 3
     with pytest.raises(RecordError, match="time step 0.01 s; A000.AT2 has 0.02 s"):
         read_motion(f"{a},{slow}")
     with pytest.raises(RecordError, match="must be 90 apart"):

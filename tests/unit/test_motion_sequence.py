@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
 from yade_timber.motion import GroundMotion, MotionRequest, RecordError, joined, read_motion, write_csv
-from yade_timber.motion.processing import in_axes, scaled, trim, turned
+from yade_timber.motion.processing import in_axes, interpolation_error, scaled, trim, turned
 from yade_timber.motion.sequence import common_step, following, with_then
 from yade_timber.study.batch.table import read_table
 
@@ -28,7 +28,8 @@ def test_motions_follow_each_other_after_the_gap():
     assert np.array_equal(both.acceleration[:300], first.acceleration)
     assert not both.acceleration[300:800].any()
     assert np.array_equal(both.acceleration[800:], 0.5 * second.acceleration)
-    assert [(part.source, part.start, part.duration, part.scale) for part in both.parts] == [("a.csv", 0.0, 3.0, 1.0), ("b.csv", 8.0, 2.0, 0.5)]
+    assert [(part.source, part.start, part.duration, part.scale)
+            for part in both.parts] == [("a.csv", 0.0, 3.0, 1.0), ("b.csv", 8.0, 2.0, 0.5)]
     assert both.parts[1].pga_gal["ns"] == pytest.approx(0.5 * second.pga_gal["ns"])
 
 
@@ -38,10 +39,24 @@ def test_parts_of_a_processed_sequence():
     """
     both = joined([motion(0.01, 300), motion(0.01, 200, "b", 1)], [1.0, 0.5], 5.0)
     double, cut, side = scaled(both, 2.0).parts, trim(both, 2.0).parts, turned(both, 90.0).parts
-    assert [part.scale for part in double] == [2.0, 1.0] and double[1].pga_gal["ud"] == pytest.approx(2 * both.parts[1].pga_gal["ud"])
+    assert [part.scale for part in double] == [2.0, 1.0]
+    assert double[1].pga_gal["ud"] == pytest.approx(2 * both.parts[1].pga_gal["ud"])
     assert [(part.start, part.duration) for part in cut] == pytest.approx([(0.0, 1.0), (6.0, 2.0)])
-    assert cut[0].pga_gal == motion(0.01, 300).__class__(0.01, both.acceleration[200:300]).pga_gal and len(trim(both, 5.0).parts) == 1
+    assert cut[0].pga_gal == motion(0.01, 300).__class__(0.01, both.acceleration[200:300]).pga_gal
+    assert len(trim(both, 5.0).parts) == 1
     assert [part.pga_gal["ew"] for part in side] == pytest.approx([part.pga_gal["ns"] for part in both.parts])
+
+
+def test_interpolation_error_of_a_sequence():
+    """Samples between those of a motion, on its straight lines, do not reduce the error; another motion does by its
+    larger peak."""
+    coarse, fine = motion(0.02, 300), motion(0.005, 400, "b", 1)
+    alone = interpolation_error(coarse)
+    assert interpolation_error(joined([coarse, fine], [1.0, 1e-6])) == pytest.approx(alone)
+    peak = np.abs(coarse.acceleration).max() / (4 * np.abs(fine.acceleration).max())
+    assert interpolation_error(joined([coarse, fine], [1.0, 4.0])) == pytest.approx(
+        max(alone * peak, interpolation_error(fine)))
+    assert interpolation_error(joined([coarse, fine], [1.0, 1e-6]), 0.02) == 0
 
 
 def test_parts_of_a_sequence_in_other_axes():
@@ -49,7 +64,8 @@ def test_parts_of_a_sequence_in_other_axes():
     both = joined([motion(0.01, 50, "a", 1), motion(0.01, 50, "b", 2)], [1.0, 0.5])
     axes = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1.0]]).T
     for before, after in zip(both.parts, in_axes(both, axes).parts):
-        assert after.pga_gal == pytest.approx({"ew": before.pga_gal["ns"], "ns": before.pga_gal["ew"], "ud": before.pga_gal["ud"]})
+        assert after.pga_gal == pytest.approx(
+            {"ew": before.pga_gal["ns"], "ns": before.pga_gal["ew"], "ud": before.pga_gal["ud"]})
 
 
 def test_different_steps_keep_the_straight_lines_between_samples():
@@ -65,7 +81,9 @@ def test_different_steps_keep_the_straight_lines_between_samples():
     assert both.parts[1].start == pytest.approx(0.002 * 1501, rel=1e-12)
 
 
-@pytest.mark.parametrize("steps, common", [((0.00781249, 0.00781249), 0.00781249), ((0.01, 0.005), 0.005), ((0.01, 0.02, 0.004), 0.002), ((0.01, 0.01), 0.01), ((1 / 120, 0.01), 1 / 600)])
+@pytest.mark.parametrize("steps, common", [((0.00781249, 0.00781249), 0.00781249), ((0.01, 0.005), 0.005),
+                                           ((0.01, 0.02, 0.004), 0.002), ((0.01, 0.01), 0.01),
+                                           ((1 / 120, 0.01), 1 / 600)])
 def test_common_step(steps, common):
     assert common_step(steps, "x") == pytest.approx(common, rel=1e-12)
 
@@ -75,14 +93,17 @@ def test_steps_without_a_common_one():
         common_step([0.01, 0.00999], "a and b")
 
 
-@pytest.mark.parametrize("text, found", [("b.csv", [("b.csv", 1.0)]), ("b.NS,b.EW@0.8; c", [("b.NS,b.EW", 0.8), ("c", 1.0)]), ("me@host/b.csv", [("me@host/b.csv", 1.0)])])
+@pytest.mark.parametrize("text, found", [("b.csv", [("b.csv", 1.0)]),
+                                         ("b.NS,b.EW@0.8; c", [("b.NS,b.EW", 0.8), ("c", 1.0)]),
+                                         ("me@host/b.csv", [("me@host/b.csv", 1.0)])])
 def test_records_with_their_factors(text, found):
     assert following(text, "--then") == found
 
 
-@pytest.mark.parametrize("words, found", [
-    ("house.py C --record a then b@0.8 --snow 1", "house.py C --record a --snow 1 --then b@0.8"), ("--record a then b then c", "--record a --then b;c"),
-    ("--record a --then b", "--record a --then b"), ("C --quake then", "C --quake --then ")])
+@pytest.mark.parametrize("words, found",
+                         [("house.py C --record a then b@0.8 --snow 1", "house.py C --record a --snow 1 --then b@0.8"),
+                          ("--record a then b then c", "--record a --then b;c"),
+                          ("--record a --then b", "--record a --then b"), ("C --quake then", "C --quake --then ")])
 def test_then_as_a_word(words, found):
     assert " ".join(with_then(words.split())) == found
 

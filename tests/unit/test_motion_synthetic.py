@@ -103,7 +103,8 @@ def test_script_makes_the_shipped_file_again(tmp_path):
 
 def test_show_record_prints_and_plots(tmp_path):
     script = ROOT / "scripts" / "show" / "show_record.py"
-    done = subprocess.run([sys.executable, script, "--out", tmp_path / "a.png"], capture_output=True, text=True, check=True)
+    done = subprocess.run([sys.executable, script, "--out", tmp_path / "a.png"], capture_output=True, text=True,
+                          check=True)
     for word in ("PGA", "PGV", "PGD", "Arias", "JMA intensity         6.7", "D5-95"):
         assert word in done.stdout
     assert (tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")

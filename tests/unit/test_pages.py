@@ -25,17 +25,22 @@ def pages(tmp_path_factory):
 
 def entries(pages):
     """Names with an entry in the API pages."""
-    return set(re.findall(r'<dt class="sig[^>]* id="yade_timber\.([\w.]+)"', "".join(page.read_text() for page in (pages / "api").glob("*.html"))))
+    return set(
+        re.findall(r'<dt class="sig[^>]* id="yade_timber\.([\w.]+)"', "".join(
+            page.read_text() for page in (pages / "api").glob("*.html"))))
 
 
 def test_every_public_name_has_an_entry(pages):
     found = entries(pages)
     names = {*yade_timber.EVERYWHERE, *yade_timber.IN_YADE} - {"house"}  # the call of House
-    assert names - found == set() and {"motion.read_motion", "TimberJoint.kn", "ContactForces.largestEigenvalue"} <= found
+    assert names - found == set()
+    assert {"motion.read_motion", "TimberJoint.kn", "ContactForces.largestEigenvalue"} <= found
 
 
 def test_guides_are_built(pages):
-    missing = [page.stem for page in (ROOT / "docs").glob("*.md") if not (pages / "docs" / f"{page.stem}.html").is_file()]
+    missing = [
+        page.stem for page in (ROOT / "docs").glob("*.md") if not (pages / "docs" / f"{page.stem}.html").is_file()
+    ]
     assert missing == []
 
 
@@ -45,5 +50,6 @@ def test_a_warning_is_an_error(tmp_path):
     (tmp_path / "index.rst").write_text("Title\n=====\n\n:doc:`nowhere`\n")
     words = re.search(r"main\(\[(.*?), source", (ROOT / "docs" / "sphinx" / "build_in_yade.py").read_text())[1]
     options = [word for word in re.findall(r'"([^"]+)"', words) if "{" not in word and word != "-d"]
-    done = subprocess.run([sys.executable, "-m", "sphinx", *options, tmp_path, tmp_path / "out"], capture_output=True, text=True)
+    done = subprocess.run([sys.executable, "-m", "sphinx", *options, tmp_path, tmp_path / "out"], capture_output=True,
+                          text=True)
     assert done.returncode != 0 and "nowhere" in done.stderr

@@ -32,9 +32,11 @@ def frames(*states):
     moved = [start[0], start[1] + [0, 0, 0.1]]
     count = len(states)
     names = [f"h.wall1.NS.x0.0-1.{layer}.window.{half}" for layer in range(count // 2) for half in ("beams", "columns")]
-    joints = SimpleNamespace(kind=["wall_beam", "wall_column"] * (count // 2), a=[0] * count, b=[1] * count, side=["east"] * count, name=names)
+    joints = SimpleNamespace(kind=["wall_beam", "wall_column"] * (count // 2), a=[0] * count, b=[1] * count,
+                             side=["east"] * count, name=names)
     elements = SimpleNamespace(storey=np.array([1, 1]))
-    return SimpleNamespace(elements=elements, joints=joints, joint_states=lambda frame: np.array(states), corners=lambda frame, k: moved[k], corners_at_start=lambda k: start[k])
+    return SimpleNamespace(elements=elements, joints=joints, joint_states=lambda frame: np.array(states),
+                           corners=lambda frame, k: moved[k], corners_at_start=lambda k: start[k])
 
 
 @pytest.mark.parametrize("states, state", [
@@ -51,7 +53,8 @@ def test_corners_and_states(states, state):
 def test_opening_lies_within_the_bay():
     panel, = panels(frames("whole", "whole"), 0)
     corners = panel.opening_corners()
-    assert corners[0] == pytest.approx([0, 0.4, 0.33 * 2.5 + 0.2 * 0.1]) and corners[2] == pytest.approx([0, 1.6, 0.78 * 2.5 + 0.8 * 0.1])
+    assert corners[0] == pytest.approx([0, 0.4, 0.33 * 2.5 + 0.2 * 0.1])
+    assert corners[2] == pytest.approx([0, 1.6, 0.78 * 2.5 + 0.8 * 0.1])
 
 
 def test_walls_that_face_the_viewer_are_drawn():
@@ -71,4 +74,5 @@ def test_plan_numbers_the_nodes():
 
 
 def test_house_sheet_states_the_weight():
-    assert "weighs 266 kN, 2.87 kN per m2 of floor; carried by storey 1 232 kN, storey 2 97 kN" in drawings.describe(build_house(load_house("tiled_house")))
+    assert "weighs 266 kN, 2.87 kN per m2 of floor; carried by storey 1 232 kN, storey 2 97 kN" in drawings.describe(
+        build_house(load_house("tiled_house")))

@@ -39,7 +39,10 @@ def test_gallery(tmp_path):
     done = run("paper/make_gallery.py", tmp_path, "--out", tmp_path / "docs")
     assert done.returncode == 0, done.stderr
     made = {path.name: path for path in (tmp_path / "docs").rglob("*.png")}
-    assert set(made) == {"modelA_snow.png", "modelA_quake.png", "modelC2_snow.png", "history.png", "houseC2.png", "l_house.png", "ground_motion.png"}
+    assert set(made) == {
+        "modelA_snow.png", "modelA_quake.png", "modelC2_snow.png", "history.png", "houseC2.png", "l_house.png",
+        "ground_motion.png"
+    }
     assert all(5_000 < path.stat().st_size < 150_000 for path in made.values())
 
 
@@ -90,7 +93,9 @@ def wrong_events(path):
 
 
 @pytest.mark.parametrize("script", ["show/show_run.py", "show/make_player.py", "show/export_vtk.py"])
-@pytest.mark.parametrize("damage", [lambda path: None, no_hdf5, truncated, another_kind, huge_shapes, foreign_numbers, no_number, wrong_events])
+@pytest.mark.parametrize(
+    "damage",
+    [lambda path: None, no_hdf5, truncated, another_kind, huge_shapes, foreign_numbers, no_number, wrong_events])
 def test_frames_that_cannot_be_used(tmp_path, script, damage):
     damage(tmp_path / recorded.NAME)
     check_one_line(run(script, tmp_path, "--out", tmp_path / "out"), "frames.h5: ")
@@ -104,7 +109,11 @@ def test_gallery_of_nothing(tmp_path):
 
 
 @pytest.mark.parametrize("script, arguments", [
-    ("show_run.py", ["."]), ("make_player.py", ["."]), ("export_vtk.py", ["."]), ("show_house.py", ["A"]), ("show_record.py", []),
+    ("show_run.py", ["."]),
+    ("make_player.py", ["."]),
+    ("export_vtk.py", ["."]),
+    ("show_house.py", ["A"]),
+    ("show_record.py", []),
 ])
 def test_empty_output(script, arguments):
     check_one_line(run(f"show/{script}", *arguments, "--out", ""), "--out", "empty")
@@ -144,7 +153,16 @@ def test_a_picture_that_cannot_be_written(tmp_path, script, first):
     check_one_line(run(f"show/{script}", first, "--out", tmp_path / "none" / "x.png"), "x.png: cannot be written")
 
 
-@pytest.mark.parametrize("name, file", [("a/../b", "house_a_.._b.png"), ("$\\\\frac{$", None), ("y" * 60, f"house_{'y' * 60}.png")])
+def test_a_motion_without_intensity_or_acceleration(tmp_path):
+    short = run("show/show_record.py", "--start", "20", "--end", "20.2", "--out", tmp_path / "short.png")
+    assert short.returncode == 0 and "JMA intensity         none" in short.stdout, short.stderr
+    check_one_line(run("show/show_record.py", "--scale", "0", "--out", tmp_path / "x.png"), "no acceleration")
+    exact = run("show/show_record.py", "--resample", "--start", "18", "--end", "22", "--out", tmp_path / "exact.png")
+    assert "errs by at most 0 % of the PGA\n" in exact.stdout, exact.stderr
+
+
+@pytest.mark.parametrize("name, file", [("a/../b", "house_a_.._b.png"), ("$\\\\frac{$", None),
+                                        ("y" * 60, f"house_{'y' * 60}.png")])
 def test_any_name_of_a_house(tmp_path, monkeypatch, name, file):
     """Drawn literally, and a file name in this folder."""
     monkeypatch.chdir(tmp_path)

@@ -38,7 +38,8 @@ def unpack(text):
         folded = planes[0] + (planes[1] << 8) + (planes[2] << 16) + (planes[3] << 24)
         change = np.where(folded % 2, -(folded + 1) // 2, folded // 2)
         rows = entry["shape"][0]
-        arrays[entry["name"]] = (np.cumsum(change.reshape(-1, rows), axis=1).T * entry["step"]).reshape(entry["shape"]) if count else np.empty(entry["shape"])
+        arrays[entry["name"]] = (np.cumsum(change.reshape(-1, rows), axis=1).T *
+                                 entry["step"]).reshape(entry["shape"]) if count else np.empty(entry["shape"])
         start += 4 * count
     assert start == len(raw)
     return info, arrays
@@ -75,10 +76,17 @@ def test_orientations_do_not_jump_between_frames():
     assert (np.sum(turns[1:] * turns[:-1], axis=2) >= -1e-9).all()
 
 
-@pytest.mark.parametrize("values", [np.zeros((0, 3)), np.zeros((1, 2)), np.array([[-1.0, 2**29], [2**29, -(2**29)]]), np.arange(-7, 7)])
+@pytest.mark.parametrize(
+    "values", [np.zeros(
+        (0, 3)), np.zeros(
+            (1, 2)), np.array([[-1.0, 2**29], [2**29, -(2**29)]]),
+               np.arange(-7, 7)])
 def test_whole_numbers_come_out_exactly(values):
     info, arrays = unpack(pack({"x": 1}, {"before": ([3], 1), "values": (values, 1), "after": ([[4], [5]], 0.5)}))
-    assert info["x"] == 1 and np.array_equal(arrays["values"], values) and arrays["before"] == [3] and np.array_equal(arrays["after"], [[4], [5]])
+    assert info["x"] == 1
+    assert np.array_equal(arrays["values"], values)
+    assert arrays["before"] == [3]
+    assert np.array_equal(arrays["after"], [[4], [5]])
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf, 1e9])
@@ -128,7 +136,8 @@ def test_the_policy_permits_this_script_and_this_style_only(tmp_path):
     assert page.index("Content-Security-Policy") < min(page.index("<style>"), page.index("<script"))
 
 
-@pytest.mark.parametrize("text", ["</script><script>alert(1)</script>", "<!--", "{{script}}", "\ud800", "'\"&<>", "a\nb\0c"])
+@pytest.mark.parametrize("text",
+                         ["</script><script>alert(1)</script>", "<!--", "{{script}}", "\ud800", "'\"&<>", "a\nb\0c"])
 def test_no_text_from_data_becomes_markup(tmp_path, text):
     """The title is escaped, everything else is base64; the page has the same tags for any text."""
     run = frames_sample.run()
@@ -136,7 +145,8 @@ def test_no_text_from_data_becomes_markup(tmp_path, text):
     run.summary = run.summary.changed(model=text, events=[Event(1.0, StructureFallen(text))])
     page = player.make([("x", run)], tmp_path / "player.html").read_text(encoding="utf-8")
     plain = player.make([("x", frames_sample.run())], tmp_path / "plain.html").read_text(encoding="utf-8")
-    assert page.count("<") == plain.count("<") and re.fullmatch(r"[A-Za-z0-9+/=]+", re.search(r'class="run-data">([^<]*)<', page)[1])
+    assert page.count("<") == plain.count("<")
+    assert re.fullmatch(r"[A-Za-z0-9+/=]+", re.search(r'class="run-data">([^<]*)<', page)[1])
     title = re.search(r"<title>(.*?)</title>", page, re.DOTALL)[1]
     assert not set(title) & set("<>\"'")
     info, _ = unpack(player.packed("x", run))
@@ -147,7 +157,8 @@ def test_events_are_in_order():
     texts = [f"{event['time']:.2f} {event['text']}" for event in player.events(frames_sample.run())]
     assert [text[:24] for text in texts] == sorted(text[:24] for text in texts)
     expected = [
-        *("1.01 the shaking begins", "drift passes 1/120: damage limit", "2.10 first spring breaks: column-beam joint, storey 1, south side, tension 5.9 kN"),
+        *("1.01 the shaking begins", "drift passes 1/120: damage limit",
+          "2.10 first spring breaks: column-beam joint, storey 1, south side, tension 5.9 kN"),
         *("drift passes 1/30: safety limit", "2.30 a storey drift N-S passes 1/10", "2.90 collapse"),
     ]
     assert all(any(part in text for text in texts) for part in expected), texts
@@ -158,7 +169,8 @@ def test_peaks_of_joints_and_feet_come_from_the_tables(tmp_path):
     """Not those of joints broken before the start and of columns that fell."""
     frames_sample.write_tables(tmp_path)
     info, _ = unpack(player.packed(tmp_path / "frames.h5", frames_sample.run()))
-    assert [(joint.get("pull"), joint.get("shear")) for joint in info["joint_list"]] == [(None, None), *((1250 * k, 800 - 100 * k) for k in range(1, 8))]
+    assert [(joint.get("pull"), joint.get("shear"))
+            for joint in info["joint_list"]] == [(None, None), *((1250 * k, 800 - 100 * k) for k in range(1, 8))]
     uplift = {element["name"]: element["uplift"] for element in info["elements"] if "uplift" in element}
     assert uplift == {"column.SE": 0.0029, "column.NW": 0.0, "column.NE": 0.0314}
     assert info["feet"] == [0, 1, 2, 3]
@@ -196,29 +208,43 @@ def test_the_japanese_result_judges_all_structures():
     """A house that stands beyond the safety limit, an entrance that falls, a shed beyond the damage limit, an undamaged
     porch.
     """
-    others = {"entrance": Structure(peak_drift=0.0, collapsed=True), "shed": Structure(peak_drift=0.01), "porch": Structure(peak_drift=1e-3)}
-    found = sample_summary(
-        joints={"total": 8}, broken={"total": 7, "damaged_at_start": {"total": 1}}, peak_drift={"storey1": {"ns": 0.05, "ew": 0.01}},
-        structures=others, events=[Event(2.6, StructureFallen("entrance"))])
+    others = {
+        "entrance": Structure(peak_drift=0.0, collapsed=True), "shed": Structure(peak_drift=0.01),
+        "porch": Structure(peak_drift=1e-3)
+    }
+    found = sample_summary(joints={"total": 8}, broken={"total": 7, "damaged_at_start": {"total": 1}}, peak_drift={
+        "storey1": {"ns": 0.05, "ew": 0.01}
+    }, structures=others, events=[Event(2.6, StructureFallen("entrance"))])
     assert japanese.result(found) == (
         "危険。最大層間変形角 1/20（南北、1 階）、残留変形角 1/1000 未満。自重による損傷。玄関は 2.6 秒に倒壊。shedは補修可能（最大層間変形角 1/100）。"
         "接合部 8 か所のうち 7 か所が破断（ほかに最初から破断 1 か所）。")
 
 
 def test_the_japanese_result_has_all_warnings():
-    found = sample_summary(
-        peak_drift={"storey1": {"ns": 0.3, "ew": 0.01}}, residual_drift={"storey1": {"ns": 0.2, "ew": 0.01}}, columns={"total": 90, "fallen": 1, "loose": 3},
-        still_moving=True, final_amplitude={"storey1": {"ns": 0.02, "ew": 0.0}}, snow=True, record={"onset_s": 18.8}, duration_s=15.0,
-        structures={"entrance": Structure(broken=2, peak_drift=5e-4)},
-        events=[Event(12.0, ColumnsLost(1, 90)), Event(13.5, SnowFallen("", "west", "roof"))])
-    parts = ("危険（最後に傾いている）", "なお ±1/50（南北）で揺れている", "柱 90 本のうち1 本が倒れた、3 本が外れた（12.0 秒から）", "雪は 13.5 秒から落下", "強い揺れ（18.8 秒）の前で計算を終了",
-             "玄関は補修可能（最大層間変形角 1/1000 未満）")
+    found = sample_summary(peak_drift={"storey1": {"ns": 0.3, "ew": 0.01}}, residual_drift={
+        "storey1": {"ns": 0.2, "ew": 0.01}
+    }, columns={"total": 90, "fallen": 1,
+                "loose": 3}, still_moving=True, final_amplitude={"storey1": {"ns": 0.02, "ew": 0.0}}, snow=True,
+                           record={"onset_s": 18.8}, duration_s=15.0, structures={
+                               "entrance": Structure(broken=2, peak_drift=5e-4)
+                           }, events=[Event(12.0, ColumnsLost(1, 90)),
+                                      Event(13.5, SnowFallen("", "west", "roof"))])
+    parts = ("危険（最後に傾いている）", "なお ±1/50（南北）で揺れている", "柱 90 本のうち1 本が倒れた、3 本が外れた（12.0 秒から）", "雪は 13.5 秒から落下",
+             "強い揺れ（18.8 秒）の前で計算を終了", "玄関は補修可能（最大層間変形角 1/1000 未満）")
     assert [part for part in parts if part not in japanese.result(found)] == [], japanese.result(found)
+
+
+def test_the_japanese_result_of_a_run_that_ends_in_the_strong_shaking():
+    found = sample_summary(record={"onset_s": 18.8, "strong_end_s": 27.0}, duration_s=20.0,
+                           structures={"entrance": Structure(peak_drift=0.3, residual_drift=0.2)})
+    assert "強い揺れ（18.8～27.0 秒）の途中で計算を終了" in japanese.result(found)
+    assert "玄関は危険（最後に傾いている）（最大層間変形角 1/3）" in japanese.result(found)
 
 
 def test_the_japanese_result_says_what_is_not_to_be_relied_on():
     found = sample_summary(cut_off="body 3", duration_s=5.9, earthquake=True, record={"note": "constant part"},
-                           solver={"unconverged_steps": 7, "worst_change_j": 1e9}, events=[Event(0.9, OwnWeight(False, {}))])
+                           solver={"unconverged_steps": 7,
+                                   "worst_change_j": 1e9}, events=[Event(0.9, OwnWeight(False, {}))])
     parts = ("5.90 秒で計算を打ち切り、以下の結果は信頼できない", "揺れの前に自重で損傷", "一定の成分", "7 ステップが収束していない")
     assert [part for part in parts if part not in japanese.result(found)] == [], japanese.result(found)
 
@@ -249,7 +275,9 @@ def test_a_run_that_has_not_ended_is_shown_as_far_as_it_is():
     run = frames_sample.run(until=1.5)
     run.summary = run.history = run.breaks = run.motion = None
     info, arrays = unpack(player.packed("x", run))
-    assert info["result"] == "Not ended yet: the first 1.5 s" and info["events"] == [] and arrays["time"][-1] == pytest.approx(1.5)
+    assert info["result"] == "Not ended yet: the first 1.5 s"
+    assert info["events"] == []
+    assert arrays["time"][-1] == pytest.approx(1.5)
 
 
 def test_no_frames_and_too_many_runs(tmp_path):
@@ -274,7 +302,8 @@ def test_script_makes_pages_of_one_and_two_runs(tmp_path):
     page = tmp_path / "first" / "compare_with_second.html"
     assert done.returncode == 0 and str(page) in done.stdout
     assert page.read_text(encoding="utf-8").count('class="run-data"') == 2
-    assert call(tmp_path / "first", "--out", tmp_path / "other.html").returncode == 0 and (tmp_path / "other.html").exists()
+    assert call(tmp_path / "first", "--out", tmp_path / "other.html").returncode == 0
+    assert (tmp_path / "other.html").exists()
 
 
 def test_script_says_what_is_wrong_in_a_line(tmp_path):

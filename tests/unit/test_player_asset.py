@@ -17,13 +17,16 @@ SOURCES, ASSETS = ROOT / "player", ROOT / "py" / "yade_timber" / "data" / "playe
 
 def source_hash():
     """The hash of build.mjs."""
-    names = sorted(["build.mjs", "package-lock.json", "package.json", *(f"src/{path.name}" for path in (SOURCES / "src").iterdir())])
+    names = sorted([
+        "build.mjs", "package-lock.json", "package.json", *(f"src/{path.name}" for path in (SOURCES / "src").iterdir())
+    ])
     return sha256(b"".join(name.encode() + b"\n" + (SOURCES / name).read_bytes() for name in names)).hexdigest()
 
 
 def test_bundle_is_up_to_date():
     found = re.search(r"sources sha256 ([0-9a-f]{64})", (ASSETS / "player.js").read_text(encoding="utf-8")[:500])
-    assert found and found[1] == source_hash(), "player.js is not built from player/src: cd player && npm ci && npm run build"
+    assert found and found[1] == source_hash(
+    ), "player.js is not built from player/src: cd player && npm ci && npm run build"
 
 
 def test_bundle_contains_the_licences():

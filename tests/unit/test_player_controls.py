@@ -14,7 +14,8 @@ pytest_plugins = ["player_fixtures"]
 def test_keys(still):
     from selenium.webdriver.common.keys import Keys
 
-    for key, time in ((Keys.END, 4.0), (Keys.HOME, 0.0), (Keys.ARROW_RIGHT, 0.5), (".", 0.55), (",", 0.5), (Keys.ARROW_LEFT, 0.0)):
+    for key, time in ((Keys.END, 4.0), (Keys.HOME, 0.0), (Keys.ARROW_RIGHT, 0.5), (".", 0.55), (",", 0.5),
+                      (Keys.ARROW_LEFT, 0.0)):
         press(still, key)
         assert ask(still, "player.time") == pytest.approx(time), key
     press(still, Keys.PAGE_DOWN)  # the next event
@@ -72,9 +73,12 @@ def test_a_click_keeps_the_camera(still):
     wait(lambda: front.get_attribute("aria-pressed") == "true")
     place = ask(still, "player.screen('roof')")
     click(still, place)
-    assert front.get_attribute("aria-pressed") == "true" and "east" in still.find_element("class name", "camera-name").text
+    assert front.get_attribute("aria-pressed") == "true"
+    assert "east" in still.find_element("class name", "camera-name").text
     for kind, shift in (("mousePressed", 0), ("mouseMoved", 30), ("mouseMoved", 60), ("mouseReleased", 60)):
-        still.execute_cdp_cmd("Input.dispatchMouseEvent", {"type": kind, "button": "left", "buttons": 1, "clickCount": 1, "x": place["x"] + shift, "y": place["y"]})
+        still.execute_cdp_cmd(
+            "Input.dispatchMouseEvent",
+            {"type": kind, "button": "left", "buttons": 1, "clickCount": 1, "x": place["x"] + shift, "y": place["y"]})
     wait(lambda: front.get_attribute("aria-pressed") == "false")
 
 
@@ -86,7 +90,8 @@ def test_keys_turn_the_house(still):
     before, middle = ask(still, "player.screen('column.NE')"), ask(still, "player.screen('roof')")
     ActionChains(still).key_down(Keys.SHIFT).send_keys(Keys.ARROW_RIGHT).key_up(Keys.SHIFT).perform()
     wait(lambda: abs(ask(still, "player.screen('column.NE')")["x"] - before["x"]) > 3)
-    assert ask(still, "player.screen('roof')")["x"] == pytest.approx(middle["x"], abs=15)  # about its middle: the wreck lies farther north
+    assert ask(still, "player.screen('roof')")["x"] == pytest.approx(
+        middle["x"], abs=15)  # about its middle: the wreck lies farther north
     assert ask(still, "player.time") == 0
 
 
@@ -96,7 +101,8 @@ def test_curves_events_and_slider_go_to_a_time(still):
 
     curves = still.find_element(By.CLASS_NAME, "curves")
     left, width = 42, curves.size["width"]
-    ActionChains(still).move_to_element_with_offset(curves, round(left + 0.75 * (width - left) - width / 2), 0).click().perform()
+    ActionChains(still).move_to_element_with_offset(curves, round(left + 0.75 * (width - left) - width / 2),
+                                                    0).click().perform()
     assert ask(still, "player.time") == pytest.approx(3.0, abs=0.02)
     events = still.find_elements(By.CSS_SELECTOR, ".events button")
     events[-1].click()
@@ -195,12 +201,15 @@ def test_the_card_shows_largest_forces_and_uplift(driver, tmp_path):
         page = player.make([(tmp_path / file, frames_sample.run())], tmp_path / "page.html")
         load(driver, f"file://{page}#t=1", motion=False)
         ask(driver, "document.getElementById('camera-front').click()")
-        foot, head, column, roof = (ask(driver, f"player.{place}") for place in ("joint(1)", "joint(7)", "screen('column.NE')", "screen('roof')"))
+        foot, head, column, roof = (ask(driver, f"player.{place}")
+                                    for place in ("joint(1)", "joint(7)", "screen('column.NE')", "screen('roof')"))
         if file == "other.h5":
             assert [card_of(driver, place) for place in (foot, head, column, roof)] == [[""]] * 4
     assert card_of(driver, foot) == ["largest pull 1.3 kN, shear 0.7 kN", "largest uplift of the column's foot 2.9 mm"]
     assert card_of(driver, head) == ["largest pull 8.8 kN, shear 0.1 kN"]
-    assert card_of(driver, column) == ["its joints: largest pull 8.8 kN, shear 0.5 kN", "largest uplift of the column's foot 31 mm"]
+    assert card_of(driver, column) == [
+        "its joints: largest pull 8.8 kN, shear 0.5 kN", "largest uplift of the column's foot 31 mm"
+    ]
     assert card_of(driver, roof) == ["its joints: largest pull 8.8 kN, shear 0.4 kN"]
     ask(driver, "player.speak('ja')")
     assert card_of(driver, foot) == ["最大引張 1.3 kN、せん断 0.7 kN", "柱脚の最大浮き上がり 2.9 mm"]

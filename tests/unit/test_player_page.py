@@ -7,7 +7,8 @@ import frames_sample
 import numpy as np
 import pytest
 from browser import errors, picture, wait
-from player_page import LYING_PHONE, MIDDLE, PHONE, ROOF_IS_DARK, WIDE, ask, at_rest, between, click, load, pixels, press, reshape, roof_is_drawn
+from player_page import (LYING_PHONE, MIDDLE, PHONE, ROOF_IS_DARK, WIDE, ask, at_rest, between, click, load, pixels,
+                         press, reshape, roof_is_drawn)
 from yade_timber.pictures import key_times, player
 from yade_timber.recording import frames
 
@@ -36,7 +37,8 @@ def test_the_page_shows_what_the_data_say(still, pages):
             assert ask(still, f"player.position('{name}')") == pytest.approx(between(run, name, time), abs=1e-3)
     for time in (2.3, 2.65, 2.95):
         ask(still, f"player.seek({time})")
-        assert ask(still, f"player.position('column.NE', 0, {HEAD})") == pytest.approx(recorded(run, "column.NE", time, HEAD), abs=1e-3)
+        assert ask(still, f"player.position('column.NE', 0, {HEAD})") == pytest.approx(
+            recorded(run, "column.NE", time, HEAD), abs=1e-3)
 
 
 def test_the_house_is_drawn_where_the_data_say(still):
@@ -90,7 +92,8 @@ def check_fits(driver):
     assert ask(driver, "document.documentElement.scrollWidth") <= PHONE[0]
     box = ask(driver, "document.getElementById('transport').getBoundingClientRect().toJSON()")
     assert box["left"] >= 0 and box["right"] <= PHONE[0] and box["bottom"] <= PHONE[1] + 1
-    outside = "[...document.querySelectorAll('#transport *')].filter((e) => e.getBoundingClientRect().right > innerWidth + 1).length"
+    outside = ("[...document.querySelectorAll('#transport *')]"
+               ".filter((e) => e.getBoundingClientRect().right > innerWidth + 1).length")
     assert ask(driver, outside) == 0
 
 
@@ -98,7 +101,8 @@ def test_it_fits_a_phone(still):
     reshape(still, PHONE, phone=True)
     check_fits(still)
     wait(lambda: roof_is_drawn(still, 0))
-    small = "[...document.querySelectorAll('#transport button, #transport select')].filter((e) => e.checkVisibility() && e.getBoundingClientRect().height < 36).length"
+    small = ("[...document.querySelectorAll('#transport button, #transport select')]"
+             ".filter((e) => e.checkVisibility() && e.getBoundingClientRect().height < 36).length")
     for _ in ("menu closed", "menu open"):
         assert ask(still, small) == 0
         ask(still, "void document.querySelector('#more summary').click()")
@@ -111,7 +115,8 @@ def test_the_state_is_in_sight_on_a_lying_phone(still):
     ask(still, "scrollTo(0, 0)")
     before = ask(still, "document.querySelector('.result').textContent")
     ask(still, "void (document.querySelector('.result').textContent = 'a long result '.repeat(15))")
-    now, controls = (ask(still, f"document.querySelector('{name}').getBoundingClientRect().toJSON()") for name in (".now", "#transport"))
+    now, controls = (ask(still, f"document.querySelector('{name}').getBoundingClientRect().toJSON()")
+                     for name in (".now", "#transport"))
     assert now["top"] >= 0 and now["bottom"] <= controls["top"] and controls["bottom"] <= LYING_PHONE[1] + 1
     ask(still, f"void (document.querySelector('.result').textContent = {before!r})")
 
@@ -133,7 +138,9 @@ def test_card_menu_event_and_help_are_in_sight_on_a_lying_phone(still):
     assert line["left"] - 1 <= event["left"] and event["right"] <= line["right"] + 1
     ask(still, "void document.querySelector('#more summary').click()")
     menu = box(still, ".menu")
-    assert 0 <= menu["top"] and menu["bottom"] <= controls["bottom"] and ask(still, "(m => m.scrollHeight <= m.clientHeight + 1)(document.querySelector('.menu'))")
+    assert 0 <= menu["top"]
+    assert menu["bottom"] <= controls["bottom"]
+    assert ask(still, "(m => m.scrollHeight <= m.clientHeight + 1)(document.querySelector('.menu'))")
     press(still, "?")
     assert ask(still, "document.getElementById('help').open && document.getElementById('help').scrollTop") == 0
     assert errors(still) == []
@@ -143,13 +150,18 @@ def test_card_menu_event_and_help_are_in_sight_on_a_lying_phone(still):
 def test_labels_of_the_drift_limits_are_in_order(still):
     """From the top down 1/10, 1/30, 1/120, apart by the height of a letter; recorded while the curves are drawn again.
     """
-    ask(still, """(() => {
+    ask(
+        still, """(() => {
         window.labels = {};
         const draw = CanvasRenderingContext2D.prototype.fillText;
-        CanvasRenderingContext2D.prototype.fillText = function (text, x, y) { labels[text] = y; draw.call(this, text, x, y); };
+        CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
+            labels[text] = y;
+            draw.call(this, text, x, y);
+        };
     })()""")
     reshape(still, (1280, 800))
-    high, middle, low = wait(lambda: ask(still, "'1/120' in labels && [labels['1/10'], labels['1/30'], labels['1/120']]"))
+    high, middle, low = wait(
+        lambda: ask(still, "'1/120' in labels && [labels['1/10'], labels['1/30'], labels['1/120']]"))
     assert high > 0 and middle - high >= 9 and low - middle >= 9
 
 
@@ -164,13 +176,19 @@ def test_the_page_speaks_japanese(still):
     english = still.find_element("class name", "now").text
     ask(still, "player.speak('ja')")
     ask(still, "player.seek(1.4)")
-    assert "層間変形角" in still.find_element("class name", "now").text and "できごと" in still.find_element("class name", "event-list").get_attribute("textContent")
+    assert "層間変形角" in still.find_element("class name", "now").text
+    assert "できごと" in still.find_element("class name", "event-list").get_attribute("textContent")
     assert still.find_element("id", "camera-front").text == "正面" and ask(still, "document.documentElement.lang") == "ja"
-    names = ask(still, "[...document.querySelectorAll('[aria-label]')].filter((e) => e.offsetParent).map((e) => e.getAttribute('aria-label'))")
+    names = ask(
+        still,
+        "[...document.querySelectorAll('[aria-label]')].filter((e) => e.offsetParent).map((e) => "
+        "e.getAttribute('aria-label'))"
+    )
     assert [name for name in names if not re.search("[\u3040-\u9fff]", name)] == []
     ask(still, "player.speak('en')")
     ask(still, "player.seek(1.5)")
-    assert still.find_element("class name", "now").text == english and still.find_element("id", "camera-front").text == "Front"
+    assert still.find_element("class name", "now").text == english
+    assert still.find_element("id", "camera-front").text == "Front"
 
 
 def test_things_for_scale_are_drawn(still):
@@ -222,10 +240,12 @@ def test_two_runs_in_step(two, pages):
             assert ask(two, f"player.position('roof', {k})") == pytest.approx(between(run, "roof", time), abs=1e-3)
     whole = "[...document.querySelectorAll('.origin')].every((e) => e.textContent && e.scrollWidth <= e.clientWidth)"
     assert ask(two, whole)
-    assert [place.text.startswith("recorded up to 3.0 s: ") for place in two.find_elements("class name", "now")] == [False, True]
+    assert [place.text.startswith("recorded up to 3.0 s: ")
+            for place in two.find_elements("class name", "now")] == [False, True]
     ask(two, "player.seek(1)")
     first, second = (ask(two, f"player.screen('roof', {k})") for k in (0, 1))
-    assert second["x"] - first["x"] == pytest.approx(WIDE[0] / 2, abs=5) and second["y"] == pytest.approx(first["y"], abs=1)
+    assert second["x"] - first["x"] == pytest.approx(WIDE[0] / 2, abs=5)
+    assert second["y"] == pytest.approx(first["y"], abs=1)
     assert roof_is_drawn(two, 0, 1)
 
     reshape(two, PHONE, phone=True)
@@ -243,8 +263,10 @@ def test_the_current_event_is_marked_and_in_view(two, pages):
         ask(two, f"player.seek({time})")
         past = [event["text"] for event in player.events(pages[2][0]) if event["time"] <= time]
         current = two.find_element("css selector", ".run .events [aria-current]")
-        assert current.text.endswith(past[-1]) and len(two.find_elements("css selector", ".run:first-child .events [aria-current]")) == 1
-        box, place = (ask(two, f"document.querySelector('.run {name}').getBoundingClientRect().toJSON()") for name in (".events [aria-current]", ".event-list"))
+        assert current.text.endswith(past[-1])
+        assert len(two.find_elements("css selector", ".run:first-child .events [aria-current]")) == 1
+        box, place = (ask(two, f"document.querySelector('.run {name}').getBoundingClientRect().toJSON()")
+                      for name in (".events [aria-current]", ".event-list"))
         assert place["top"] <= box["top"] and box["bottom"] <= place["bottom"]
 
 
@@ -262,7 +284,8 @@ def test_it_opens_before_an_event_that_is_earlier_than_the_shaking(driver, tmp_p
     player.make([("x", run)], tmp_path / "x.html")
     load(driver, (tmp_path / "x.html").as_uri(), PHONE, motion=False)
     assert not ask(driver, "player.playing")
-    assert ask(driver, "player.time") == pytest.approx(max(0, first - 2), abs=1e-3) and first < key_times.onset(run.motion)
+    assert ask(driver, "player.time") == pytest.approx(max(0, first - 2), abs=1e-3)
+    assert first < key_times.onset(run.motion)
 
 
 def test_wall_sheets_are_counted_apart(driver, tmp_path):

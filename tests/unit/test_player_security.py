@@ -10,8 +10,10 @@ from yade_timber.recording.events import Event, StructureFallen
 
 pytest_plugins = ["player_fixtures"]
 
-HOSTILE = ["".join(("<img src=x onerror=\"document.title='RUN'\">", "</script><script>document.title='RUN'</script>", "'\"><svg/onload=document.title='RUN'>", "$\\frac{$")),
-           "__proto__"]
+HOSTILE = [
+    "".join(("<img src=x onerror=\"document.title='RUN'\">", "</script><script>document.title='RUN'</script>",
+             "'\"><svg/onload=document.title='RUN'>", "$\\frac{$")), "__proto__"
+]
 SMALL = 320, 240
 """Size of the page: its text counts, not its picture. [pixel]"""
 
@@ -36,8 +38,10 @@ def test_no_text_from_data_runs(driver, tmp_path, number):
     assert f"House {text} " in ask(driver, "document.querySelector('.result').textContent")
     labels = ask(driver, "[...document.querySelectorAll('#legend-list li')].map((e) => e.textContent)")
     assert {text, text + "2", "roof"} <= set(labels)
-    assert any(text in event for event in ask(driver, "[...document.querySelectorAll('.events button')].map((e) => e.textContent)"))
-    assert ask(driver, "document.querySelectorAll('img, iframe, [onerror], [onload], script:not(.run-data)').length") == 1
+    assert any(text in event
+               for event in ask(driver, "[...document.querySelectorAll('.events button')].map((e) => e.textContent)"))
+    assert ask(driver,
+               "document.querySelectorAll('img, iframe, [onerror], [onload], script:not(.run-data)').length") == 1
     assert errors(driver) == []
 
 
@@ -46,8 +50,10 @@ def test_the_policy_stops_foreign_code(driver, tmp_path):
     refused.
     """
     page = player.make([("x", frames_sample.run())], tmp_path / "page.html")
-    foreign = "<script>document.title = 'RUN'</script><img src=x onerror=\"document.title = 'RUN'\"><style>h1 { display: none }</style>"
-    page.write_text(page.read_text(encoding="utf-8").replace('<main id="runs">', foreign + '<main id="runs">'), encoding="utf-8")
+    foreign = ("<script>document.title = 'RUN'</script><img src=x onerror=\"document.title = 'RUN'\">"
+               "<style>h1 { display: none }</style>")
+    page.write_text(
+        page.read_text(encoding="utf-8").replace('<main id="runs">', foreign + '<main id="runs">'), encoding="utf-8")
     load(driver, f"file://{page}#t=2.5", SMALL, motion=False)
     assert driver.title == "House A: earthquake" and driver.find_element("css selector", "h1").is_displayed()
     assert ask(driver, "fetch('https://example.org/').then(() => 'reached', () => 'refused')") == "refused"

@@ -28,7 +28,10 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 def command(out, *options):
-    words = ["yade", "-n", "-x", ROOT / "scripts" / "modelB1_quake.py", "--start", "17.5", "--dt", "5e-4", "--out", out, "--no-views", "--quiet", *options]
+    words = [
+        "yade", "-n", "-x", ROOT / "scripts" / "modelB1_quake.py", "--start", "17.5", "--dt", "5e-4", "--out", out,
+        "--no-views", "--quiet", *options
+    ]
     done = subprocess.run(list(map(str, words)), capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
 
@@ -45,11 +48,14 @@ def test_files_and_summary(folder):
     """Tables are complete and sorted; the summary's peaks are those of the tables."""
     found = quantities.read(folder)
     known, joints, columns = found.summary.quantities, found.joints, found.columns
-    load, uplift = ([float(row[name]) for row in rows] for rows, name in ((joints, "utilisation [-]"), (columns, "uplift [m]")))
+    load, uplift = ([float(row[name])
+                     for row in rows]
+                    for rows, name in ((joints, "utilisation [-]"), (columns, "uplift [m]")))
     assert load == sorted(load, reverse=True) and uplift == sorted(uplift, reverse=True)
     assert len(joints) == found.summary.joints.total and len(columns) == found.summary.columns.total
     assert known.largest_utilisation.value == pytest.approx(load[0], abs=1e-4)
-    assert known.largest_pull.force == pytest.approx(max(float(row["pull [N]"]) for row in joints if row["strength [N]"] != "inf"))
+    assert known.largest_pull.force == pytest.approx(
+        max(float(row["pull [N]"]) for row in joints if row["strength [N]"] != "inf"))
     assert known.until_s is None, "the house stands"
     for axis in ("ns", "ew"):
         assert known.base_shear.peak[axis] == pytest.approx(found.storeys.peak(f"base_shear_{axis}"), abs=1e-3)
@@ -80,7 +86,8 @@ def test_a_resumed_run_has_the_same_tables(folder, tmp_path):
         assert (tmp_path / name).read_bytes() == (folder / name).read_bytes(), name
     straight, resumed = (json.loads((path / "summary.json").read_text()) for path in (folder, tmp_path))
     assert resumed["quantities"] == straight["quantities"] and resumed["structures"] == straight["structures"]
-    assert "report" not in resumed["made_from"]["options"] and (tmp_path / report.PAGE).exists(), "a report does not change results"
+    assert "report" not in resumed["made_from"]["options"] and (
+        tmp_path / report.PAGE).exists(), "a report does not change results"
     clear(RunOptions(out=tmp_path))
     assert not (tmp_path / report.PAGE).exists(), "a report of an earlier run must not be taken for that of the next"
 
@@ -94,10 +101,13 @@ def test_page_and_report(folder, tmp_path):
     page = (tmp_path / report.PAGE).read_text()
     assert page.count("<img") == 3 and not re.search(r'(src|href)="(?!data:)', page), "the page is self-contained"
     found = Summary.read(tmp_path)
-    for part in (found.sentence, "Joints most loaded", "JMA intensity", "snow steadies a braced house".capitalize(), report.weight(found.weight), "scripts/modelB1_quake.py --start=17.5 --duration=1.3"):
+    for part in (found.sentence, "Joints most loaded", "JMA intensity", "snow steadies a braced house".capitalize(),
+                 report.weight(found.weight), "scripts/modelB1_quake.py --start=17.5 --duration=1.3"):
         assert escape(part) in page, part
     if shutil.which("chromium"):
-        assert written[1].name == report.PDF and len(re.findall(rb"/Type\s*/Page\b(?!s)", written[1].read_bytes())) == 1, "one page"
+        assert written[1].name == report.PDF and len(
+            re.findall(rb"/Type\s*/Page\b(?!s)", written[1].read_bytes())
+        ) == 1, "one page"
 
 
 def test_weight(folder):
@@ -131,7 +141,8 @@ def test_report_of_other_folders(folder, tmp_path):
     "options, command",
     [
         (scripted("modelC2_quake", "C2", True, scale=1.5, dt=2e-4), "scripts/modelC2_quake.py --scale=1.5 --dt=0.0002"),
-        (RunOptions(house="my house.yaml", quake=True, snow=1.0, report=True), "scripts/house.py 'my house.yaml' --quake --snow=1.0"),
+        (RunOptions(house="my house.yaml", quake=True, snow=1.0,
+                    report=True), "scripts/house.py 'my house.yaml' --quake --snow=1.0"),
     ],
 )
 def test_command_that_repeats_the_run(options, command):
@@ -157,7 +168,10 @@ def test_ten_lines(folder):
     """Ten at most, whatever happens; events take places from the last of the others."""
     found = Summary.read(folder)
     assert len(lines(found)) <= MOST and lines(found)[0].startswith("Main: ")
-    made = lines(found.changed(events=[*(Event(2.0 + k, SnowFallen("", f"{k}.", "roof")) for k in range(5)), Event(9.0, Collapse())]))
+    made = lines(
+        found.changed(
+            events=[*(Event(2.0 + k, SnowFallen("", f"{k}.", "roof")) for k in range(5)),
+                    Event(9.0, Collapse())]))
     snow = [f"{2 + k}.00 s: snow has fallen from the {k}. roof." for k in (0, 1)]
     assert len(made) == MOST and made[-3:] == [*snow, "9.00 s: collapse: a floor has come down by half a storey."]
 
@@ -165,7 +179,9 @@ def test_ten_lines(folder):
 def test_main_mode_moves_most_of_the_mass():
     shares = [Mode(share, "ns", {"ns": share, "ew": 0.0}, {}) for share in (0.1, 0.7, 0.3)]
     found = sample_summary(quantities={"modes": {"before": ModesAt(1.0, shares)}})
-    assert found.main_mode("before", "ns").period_s == 0.7 and found.main_mode("before", "ew") is None and found.main_mode("after", "ns") is None
+    assert found.main_mode(
+        "before",
+        "ns").period_s == 0.7 and found.main_mode("before", "ew") is None and found.main_mode("after", "ns") is None
 
 
 # --- storeys ----------------------------------------------------------------------------------------------------------
@@ -178,9 +194,12 @@ def test_storeys_of_known_momenta():
     samples = np.column_stack([time, *(column for rate in rates for column in (rate * time, 0 * time, 0 * time))])
     found = storeys(samples, masses, Motion(0.01, 0.0, np.tile([1.0, 0.0, 0.0], (60, 1)), np.zeros((60, 3))))
     assert found.column("base_shear_ew") == pytest.approx(-(rates.sum() + sum(masses)))
-    assert found.column("shear_ew1") == pytest.approx(-(200 + 15 + 600 + 320)) and found.column("shear_ew2") == pytest.approx(-(600 + 200))
-    assert found.column("ground_acceleration_ew") == pytest.approx(1) and not found.column("ground_acceleration_ud").any()
-    assert found.column("acceleration_ew1") == pytest.approx(2 + 1) and found.column("acceleration_ew2") == pytest.approx(3 + 1)
+    assert found.column("shear_ew1") == pytest.approx(-(200 + 15 + 600 + 320))
+    assert found.column("shear_ew2") == pytest.approx(-(600 + 200))
+    assert found.column("ground_acceleration_ew") == pytest.approx(1)
+    assert not found.column("ground_acceleration_ud").any()
+    assert found.column("acceleration_ew1") == pytest.approx(2 + 1)
+    assert found.column("acceleration_ew2") == pytest.approx(3 + 1)
     assert found.sustained("shear_ew2") == pytest.approx(800) and found.until(0.2).samples == 20
 
 
@@ -203,7 +222,8 @@ def test_accelerations_are_those_of_an_accelerometer():
         assert np.abs(band_limited(time, wave)[middle]).max() == pytest.approx(share, abs=2e-3)
     impact = np.where(np.arange(len(time)) == 500, 130.0, 0.0)
     found = band_limited(time, impact)
-    assert found.max() == pytest.approx(130.0 * 0.01 * 2 * 10 * 1.402, rel=0.02) and found.sum() == pytest.approx(130.0, rel=1e-3)  # integral of the gain
+    assert found.max() == pytest.approx(130.0 * 0.01 * 2 * 10 * 1.402, rel=0.02) and found.sum() == pytest.approx(
+        130.0, rel=1e-3)  # integral of the gain
     kept = np.r_[0:300, 300:700:5, 700:1000]
     gap = np.where(np.arange(len(kept)) == 50, np.nan, np.sin(2 * np.pi * time[kept]))
     found = band_limited(time[kept], gap)
@@ -215,7 +235,8 @@ def test_ground_velocity():
     """Exact for the straight lines between samples, also between and beyond them."""
     acceleration = np.array([[0.0, 1, 0], [2.0, 1, 0], [2.0, 1, 0], [0.0, 1, 0]])
     found = ground_velocity(Motion(0.5, 1.0, acceleration, 0 * acceleration), [0.0, 1.0, 1.25, 1.5, 2.5, 9.0])
-    assert found[:, 0] == pytest.approx([0, 0, 0.125, 0.5, 2.0, 2.0]) and found[:, 1] == pytest.approx([0, 0, 0.25, 0.5, 1.5, 1.5])
+    assert found[:, 0] == pytest.approx([0, 0, 0.125, 0.5, 2.0, 2.0])
+    assert found[:, 1] == pytest.approx([0, 0, 0.25, 0.5, 1.5, 1.5])
     assert not ground_velocity(None, [0.0, 1.0]).any()
 
 
@@ -225,7 +246,10 @@ def test_ground_velocity():
 def collapsed_run():
     """The sample's frames: its roof comes down; joint 3 breaks first, joint 1 next, joint 3 again."""
     run = frames_sample.run()
-    run.breaks = {"time": [2.3, 2.2, 2.4], "joint": [1, 3, 3], "spring": [0, 0, 1], "cause": ["shear", "tension", "tension"], "force": [5900.0] * 3}
+    run.breaks = {
+        "time": [2.3, 2.2, 2.4], "joint": [1, 3, 3], "spring": [0, 0, 1], "cause": ["shear", "tension", "tension"],
+        "force": [5900.0] * 3
+    }
     return run
 
 
@@ -233,7 +257,8 @@ def test_first_failures():
     """Each joint once, by its first spring, in the order of time, with the drift of its storey then."""
     run = collapsed_run()
     chain = first_failures(run)
-    assert [(failure.joint, failure.time, failure.cause) for failure in chain] == [(3, 2.2, "tension"), (1, 2.3, "shear")]
+    assert [(failure.joint, failure.time, failure.cause)
+            for failure in chain] == [(3, 2.2, "tension"), (1, 2.3, "shear")]
     for failure in chain:
         drifts = [abs(np.interp(failure.time, run.history.time, run.history.drift(1, key))) for key in ("ns", "ew")]
         assert failure.drift == pytest.approx(max(drifts)) and failure.direction == ("ns", "ew")[int(np.argmax(drifts))]
@@ -246,17 +271,24 @@ def test_report_of_a_collapse():
     """A chain of the first failures instead of joints most loaded after their fall; how far the others were before it.
     """
     run = collapsed_run()
-    rows = [{"joint": name, "utilisation [-]": f"{0.1 * k}", "pull [N]": "4600", "shear [N]": "1500", "strength [N]": "5880", "state": "whole"}
-            for k, name in enumerate(run.joints.name)]
+    rows = [{
+        "joint": name, "utilisation [-]": f"{0.1 * k}", "pull [N]": "4600", "shear [N]": "1500", "strength [N]": "5880",
+        "state": "whole"
+    } for k, name in enumerate(run.joints.name)]
     run.broken[:] = 0
     run.broken[run.time > 2.35, 3] = 4
     results = quantities.Results(sample_summary(quantities={"until_s": 2.5}), run.history, None, rows, [])
     failures = first_failures(run)
     first, second = report.failed_joints(run, results, failures)
-    assert first["time"] == "2.20" and first["cause"] == "tension" and second["time"] == "2.30" and second["cause"] == "shear"
+    assert first["time"] == "2.20"
+    assert first["cause"] == "tension"
+    assert second["time"] == "2.30"
+    assert second["cause"] == "shear"
     assert first["forces"] == ["4.6", "1.5", "5.9"]
     others = report.others(run, results)
-    assert "Then 1 of 8 joints that can break had failed" in others and "of the others 0 had used more than 0.9" in others and "more than 0.40." in others
+    for part in ("Then 1 of 8 joints that can break had failed", "of the others 0 had used more than 0.9",
+                 "more than 0.40."):
+        assert part in others
     texts = [text.get_text() for axis in report_pictures.plans(run, failures).axes for text in axis.texts]
     assert sorted(" ".join(texts).split()) == ["1", "2"]
 
@@ -266,5 +298,6 @@ def test_lines_of_a_collapse(folder):
     fallen = {"collapsed": True, "collapse_time_s": 5.77, "tilt_time_s": 4.28, "tilt_direction": "ew"}
     main = {"collapsed": True, "peak_drift": 3.92}
     texts = lines(Summary.read(folder).changed(**fallen, structures={"main": main}, quantities={"until_s": 4.28}))
-    assert texts[0] == "Main: collapsed at 5.8 s, 1.5 s after a storey drift of 1/10 E-W." and not any("3.92" in line for line in texts)
+    assert texts[0] == "Main: collapsed at 5.8 s, 1.5 s after a storey drift of 1/10 E-W."
+    assert not any("3.92" in line for line in texts)
     assert any(line.startswith("Largest base shear before 4.28 s, ") for line in texts)

@@ -27,17 +27,23 @@ def test_candidates_of_a_house():
     found = measures.candidates("B", 1.0)
     names = [candidate.name for candidate in found]
     assert "main.brace1.EW.y0.3-4" in names and len(names) == len(set(names))
-    assert [name for name in names if name.startswith("double")] == ["double_column_ends", "double_brace_ends", "double_brace_sides"]
-    assert found[names.index("double_column_ends")].changes == {"set": "joints.column_ends.number=4"}  # the shipped house has two fittings at each end
+    assert [name for name in names
+            if name.startswith("double")] == ["double_column_ends", "double_brace_ends", "double_brace_sides"]
+    assert found[names.index("double_column_ends")].changes == {
+        "set": "joints.column_ends.number=4"
+    }  # the shipped house has two fittings at each end
     assert names[-1] == "snow_cleared" and found[-1].changes == {"snow": "0"}
     assert "snow_cleared" not in [candidate.name for candidate in measures.candidates("B", 0.0)]
     walls = measures.candidates("B", 0.0, ("wall",), ("EW.y0.3-4",))
     assert [wall.changes for wall in walls] == [{"braces": f"main.wall{storey}.EW.y0.3-4.plywood"} for storey in (1, 2)]
-    assert [candidate.name for candidate in measures.candidates("B", 1.0, ("brace",), ("EW.y0.3-4",))] == ["main.brace1.EW.y0.3-4", "main.brace2.EW.y0.3-4"]
+    assert [candidate.name for candidate in measures.candidates("B", 1.0, ("brace", ), ("EW.y0.3-4", ))] == [
+        "main.brace1.EW.y0.3-4", "main.brace2.EW.y0.3-4"
+    ]
 
 
 @pytest.mark.parametrize("name, text", [
-    ("main.brace1.EW.y0.3-4", "brace: main, storey 1, south wall, 3.2 m east"), ("main.brace1.NS.x8.4-5", "brace: main, storey 1, east wall, 4.1 m north"),
+    ("main.brace1.EW.y0.3-4", "brace: main, storey 1, south wall, 3.2 m east"),
+    ("main.brace1.NS.x8.4-5", "brace: main, storey 1, east wall, 4.1 m north"),
     ("main.brace2.NS.x4.1-3", "brace: main, storey 2, inner N-S wall, 1.8 m north"),
     ("main.wall1.EW.y0.3-4.plywood", "plywood wall: main, storey 1, south wall, 3.2 m east"),
 ])
@@ -53,7 +59,9 @@ def test_measures_of_whole_walls():
     found = {one.name: one for one in measures.candidates("B", 0.0, ("brace", "wall"), group="wall")}
     south = found["main.brace1.EW.y0"]
     assert south.text == "braces in 6 bays: main, storey 1, south wall"
-    assert south.changes["braces"].split(";") == [one.name for one in measures.candidates("B", 0.0, ("brace",), ("main.brace1.EW.y0.",))]
+    assert south.changes["braces"].split(";") == [
+        one.name for one in measures.candidates("B", 0.0, ("brace", ), ("main.brace1.EW.y0.", ))
+    ]
     assert found["main.wall2.NS.x4"].text == "plywood walls in 7 bays: main, storey 2, inner N-S wall"
     assert sum(name.startswith("main.brace") for name in found) == 2 * 6
     bays = [name for one in found.values() for name in one.changes["braces"].split(";")]
@@ -65,7 +73,9 @@ def test_no_measure_stands_in_a_window_or_a_door():
     1-3 and 6-7.
     """
     names = [one.name for one in measures.candidates("tiled_house", 0.0, ("brace", "wall"))]
-    assert [name.rpartition(".")[2] for name in names if name.startswith("main.brace1.EW.y0.")] == ["0-1", "1-2", "5-4", "8-7"]
+    assert [name.rpartition(".")[2] for name in names if name.startswith("main.brace1.EW.y0.")] == [
+        "0-1", "1-2", "5-4", "8-7"
+    ]
     assert not any(name.startswith("main.wall1.EW.y0.") for name in names) and "main.wall1.EW.y4.1-3.plywood" in names
 
 
@@ -96,21 +106,29 @@ def test_records_of_a_folder(tmp_path):
     found = motions.records(tmp_path, {"scale": 2.0}, "m/s2")
     assert [name for name, _ in found] == ["first", "second"] and found[0][1]["scale"] == "2"
     start, end = (float(found[0][1][key]) for key in ("start", "end"))
-    assert start == pytest.approx(6.5, abs=0.2) and end == pytest.approx(29.5, abs=0.6)  # 5 % and 95 % of 10 s of shaking
+    assert start == pytest.approx(6.5,
+                                  abs=0.2) and end == pytest.approx(29.5, abs=0.6)  # 5 % and 95 % of 10 s of shaking
     with pytest.raises(RunError, match="no records"):
         motions.records(ROOT / "docs")
 
 
 def test_files_of_one_record_are_one_motion(tmp_path, monkeypatch):
     """Azimuths other than 000 and 090, two components, components with letters, K-NET, one file of three components."""
-    names = ("RSN953_MUL009.AT2", "RSN953_MUL279.AT2", "RSN953_MUL-UP.AT2", "B-E.AT2", "B-N.AT2", "kobe_ns.csv", "kobe_ew.csv", "K1.NS", "K1.EW", "K1.UD", "whole.csv")
+    names = ("RSN953_MUL009.AT2", "RSN953_MUL279.AT2", "RSN953_MUL-UP.AT2", "B-E.AT2", "B-N.AT2", "kobe_ns.csv",
+             "kobe_ew.csv", "K1.NS", "K1.EW", "K1.UD", "whole.csv")
     for name in names:
         (tmp_path / name).write_text("ns,ew,ud\n1,2,3\n")
     (tmp_path / "_SearchResults.csv").write_text("Record,Magnitude\n953,6.7\n")
     monkeypatch.setattr(motions, "window", lambda *_: {})
     found = {name: record["record"] for name, record in motions.records(tmp_path)}
-    joined = {name: ",".join(str(tmp_path / file) for file in files) for name, files in (("B", ("B-E.AT2", "B-N.AT2")), ("kobe", ("kobe_ew.csv", "kobe_ns.csv")))}
-    whole = {name: str(tmp_path / file) for name, file in (("RSN953_MUL", "RSN953_MUL"), ("K1", "K1"), ("whole", "whole.csv"))}
+    joined = {
+        name: ",".join(str(tmp_path / file) for file in files)
+        for name, files in (("B", ("B-E.AT2", "B-N.AT2")), ("kobe", ("kobe_ew.csv", "kobe_ns.csv")))
+    }
+    whole = {
+        name: str(tmp_path / file)
+        for name, file in (("RSN953_MUL", "RSN953_MUL"), ("K1", "K1"), ("whole", "whole.csv"))
+    }
     assert found == joined | whole
 
 
@@ -146,12 +164,17 @@ def test_needed_motions(count, needed, usual):
 
 def test_rounds():
     assert race.rounds(24, 81) == [(4, 81), (8, 16), (24, 3)] and race.cost(24, 81) == 24 + 4 * 81 + 4 * 16 + 16 * 3
-    assert race.rounds(20, 13) == [(4, 13), (20, 3)] and race.rounds(14, 81) == [(4, 81), (14, 3)], "the test has ten motions at least"
+    assert race.rounds(20, 13) == [(4, 13), (20, 3)] and race.rounds(14, 81) == [
+        (4, 81), (14, 3)
+    ], "the test has ten motions at least"
     assert race.rounds(10, 3) == [(10, 3)] and race.cost(10, 3) == 40
 
 
 def run(drift, collapsed=False):
-    return {"peak_drift": drift, "collapsed": collapsed, "status": "done", "wall_s": 1.0, "run": f"run{drift:g}", "error": None}
+    return {
+        "peak_drift": drift, "collapsed": collapsed, "status": "done", "wall_s": 1.0, "run": f"run{drift:g}",
+        "error": None
+    }
 
 
 def test_a_collapse_counts_as_the_largest_drift():
@@ -163,7 +186,9 @@ def entry(name, factors):
     """An Entry whose drifts are those of the house times factors; the house drifts by 0.01 everywhere. A factor of
     infinity is a collapse.
     """
-    return race.Entry(measures.Candidate(name, name), {f"seed{k}": run(0.01 * factor, math.isinf(factor)) for k, factor in enumerate(factors)})
+    return race.Entry(measures.Candidate(name, name),
+                      {f"seed{k}": run(0.01 * factor, math.isinf(factor))
+                       for k, factor in enumerate(factors)})
 
 
 def seeds(first, last):
@@ -182,8 +207,9 @@ def test_words_of_a_ranking():
     bad, dropped = entry("bad", [1 / factor for factor in LOWER]), entry("dropped", LOWER[:4])
     dropped.dropped = 4
     results = race.ranking([none, dropped, bad, good], house, seeds(0, 12))
-    assert [(result.entry.candidate.name, result.words) for result in results] == [
-        ("good", "better"), ("none", race.NO_DIFFERENCE), ("bad", "worse"), ("dropped", "not tested: dropped after 4 motions")]
+    assert [(result.entry.candidate.name, result.words)
+            for result in results] == [("good", "better"), ("none", race.NO_DIFFERENCE), ("bad", "worse"),
+                                       ("dropped", "not tested: dropped after 4 motions")]
     assert results[0].ratio == pytest.approx(math.sqrt(0.55 * 0.56)) and results[0].motions == 12
     assert results[0].p == pytest.approx(3 * 2 / 2**12) and results[3].p is None
 
@@ -193,11 +219,13 @@ def test_the_motions_of_the_selection_do_not_test():
     house, lucky = entry("house", [1.0] * 16), entry("lucky", [0.01] * 4 + SCATTER)
     result, = race.ranking([lucky], house, seeds(4, 16))
     assert result.motions == 12 and result.p > 0.5 and result.words == race.NO_DIFFERENCE
-    assert race.compare(lucky, house).p < 0.2 < race.compare(lucky, house, seeds(4, 16)).p, "with the motions that selected it, the measure looks better"
+    assert race.compare(lucky, house).p < 0.2 < race.compare(lucky, house, seeds(
+        4, 16)).p, "with the motions that selected it, the measure looks better"
 
 
-@pytest.mark.parametrize("measure, house, p, words", [
-    (3, 10, 2 / 2**7, "better"), (10, 3, 2 / 2**7, "worse"), (5, 10, 2 / 2**5, race.NO_DIFFERENCE), (10, 10, 1.0, race.NO_DIFFERENCE)])
+@pytest.mark.parametrize("measure, house, p, words", [(3, 10, 2 / 2**7, "better"), (10, 3, 2 / 2**7, "worse"),
+                                                      (5, 10, 2 / 2**5, race.NO_DIFFERENCE),
+                                                      (10, 10, 1.0, race.NO_DIFFERENCE)])
 def test_collapses_are_compared_where_drifts_say_nothing(measure, house, p, words):
     """Collapses under so many of ten motions, of three measures with equal numbers: McNemar's exact test, by hand."""
     def fallen(number):
@@ -212,7 +240,8 @@ def test_collapses_are_compared_where_drifts_say_nothing(measure, house, p, word
 
 def test_exact_sign():
     """McNemar (1947): 1 against 7 discordant pairs, 2 (1 + 8) / 2^8; the direction is of no influence."""
-    assert race.exact_sign(1, 7) == race.exact_sign(7, 1) == pytest.approx(18 / 256) and race.exact_sign(0, 0) == race.exact_sign(2, 2) == 1.0
+    assert race.exact_sign(1, 7) == race.exact_sign(7, 1) == pytest.approx(18 / 256)
+    assert race.exact_sign(0, 0) == race.exact_sign(2, 2) == 1.0
 
 
 def test_equal_motions_do_not_decide_the_direction():
@@ -237,7 +266,8 @@ def test_the_summary_names_what_is_better_or_what_was_tested():
     text = overview.summary(race.ranking([good, none], house, seeds(0, 12)))
     assert text == "Shown to be better than the house as it is: good (median drift times 0.55)."
     text = overview.summary(race.ranking([none], house, seeds(0, 12)))
-    assert text.startswith("No measure is shown to be better") and text.endswith("Tested: none (median drift times 1.02).")
+    assert text.startswith("No measure is shown to be better")
+    assert text.endswith("Tested: none (median drift times 1.02).")
 
 
 @pytest.mark.parametrize("weak", [0.0, 0.5])
@@ -289,7 +319,10 @@ def ranking(folder, monkeypatch, effects, failing=(), strength=math.inf):
             factor = effects.get(row.cells.get("braces"), 1.0) * (1 + 0.01 * number)
             failed = row.cells.get("braces") in failing and row.cells["seed"] == "2"
             fallen = (row.value("scale") or 1.0) >= strength * (1 + 0.1 * (number - 1))
-            lines.append({**run(0.01 * factor, fallen), "run": row.name, **({"status": "failed", "error": "too large a step"} if failed else {})})
+            lines.append({
+                **run(0.01 * factor, fallen), "run": row.name,
+                **({"status": "failed", "error": "too large a step"} if failed else {})
+            })
         return lines
 
     monkeypatch.setattr(rounds, "run_rows", run_rows)
@@ -310,9 +343,14 @@ def test_runs_go_to_the_contenders(tmp_path, monkeypatch):
     assert [len(one.runs) for one in race_of.entries] == [20, 3, 20, 20] + [4] * 8 and len(made) == 20 + 4 * 12 + 16 * 3
     assert race_of.tests == [f"seed{k}" for k in range(5, 21)]
     results = race.ranking(race_of.entries, race_of.house, race_of.tests)
-    assert results[0].entry.candidate.name == names[0] and results[0].words == "better" and results[0].ratio == pytest.approx(0.5)
+    assert results[0].entry.candidate.name == names[0]
+    assert results[0].words == "better"
+    assert results[0].ratio == pytest.approx(0.5)
     assert results[-1].words == "a run failed: too large a step"
-    assert len(lines) == 2 and "selection: 12 measures under 4 motions" in lines[0] and "runs left, about" in lines[0] and "test: 3 measures" in lines[1]
+    assert len(lines) == 2
+    assert "selection: 12 measures under 4 motions" in lines[0]
+    assert "runs left, about" in lines[0]
+    assert "test: 3 measures" in lines[1]
     page = overview.page("Title", ["About <b>"], results, race_of.house)
     assert page.count("<circle") == sum(len(one.runs) for one in race_of.entries) and "About &lt;b&gt;" in page
     assert overview.table_text(results).splitlines()[1].startswith(f"1,{names[0]},")
@@ -327,10 +365,13 @@ def test_the_strength_brings_half_of_the_houses_down(tmp_path, monkeypatch, stre
     race_of, made = ranking(tmp_path, monkeypatch, {}, strength=strength)
     text = race_of.choose_scale(lines.append)
     scale = float(race_of.motions[0][1]["scale"])
-    assert 2 <= sum(scale >= strength * (1 + 0.1 * k) for k in range(6)) <= 4 and len(lines) <= 8 and len(made) == 6 * len(lines)
+    assert 2 <= sum(scale >= strength * (1 + 0.1 * k) for k in range(6)) <= 4
+    assert len(lines) <= 8
+    assert len(made) == 6 * len(lines)
     assert {cells["scale"] for _, cells in race_of.motions} == {f"{scale:g}"} and f"scaled by {scale:g}" in text
     race_of.run(lambda line: None)
-    assert len(race_of.house.runs) == 20 and len(made) < 6 * len(lines) + 20 + 4 * 12 + 16 * 3, "runs of the pilots are not repeated"
+    assert len(race_of.house.runs
+               ) == 20 and len(made) < 6 * len(lines) + 20 + 4 * 12 + 16 * 3, "runs of the pilots are not repeated"
 
 
 @pytest.mark.parametrize("strength, chosen", [(math.inf, rounds.STRONGEST), (0.0, rounds.WEAKEST)])

@@ -38,9 +38,9 @@ PUBLISHED = {  # script -> (house, earthquake, snow); DESIGN, section 4
     **{f"model{house}_snow": (house, True, True) for house in ("B1", "B2", "C1", "C2")},
 }
 KEYS = (
-    "scenario model earthquake snow joint_damping record dt duration_s until_collapse steps wall_s real_time_factor threads elements joints broken tilt_time_s collapsed "
-    "collapse_time_s peak_drift residual_drift final_amplitude still_moving events energy versions"
-).split()
+    "scenario model earthquake snow joint_damping record dt duration_s until_collapse steps wall_s real_time_factor "
+    "threads elements joints broken tilt_time_s collapsed "
+    "collapse_time_s peak_drift residual_drift final_amplitude still_moving events energy versions").split()
 MAY_DIFFER = {"wall_s", "real_time_factor", "threads"}
 
 
@@ -52,7 +52,10 @@ def run(script, *options, threads=1, **changes):
 
 def own_errors(process):
     """Lines on standard error that are not YADE's greeting."""
-    return [line for line in process.stderr.splitlines() if line and not line.startswith(("TCP python", "XMLRPC", "Running script"))]
+    return [
+        line for line in process.stderr.splitlines()
+        if line and not line.startswith(("TCP python", "XMLRPC", "Running script"))
+    ]
 
 
 def summary(folder):
@@ -85,7 +88,10 @@ def test_fourteen_scripts():
     """Each script is one call of main with its house and loads."""
     found = {}
     for path in SCRIPTS.glob("model*.py"):
-        calls = [n for n in ast.walk(ast.parse(path.read_text())) if isinstance(n, ast.Call) and getattr(n.func, "id", "") == "main"]
+        calls = [
+            n for n in ast.walk(ast.parse(path.read_text()))
+            if isinstance(n, ast.Call) and getattr(n.func, "id", "") == "main"
+        ]
         given = {k.arg: k.value.value for k in calls[0].keywords}
         found[path.stem] = (calls[0].args[0].value, given.get("earthquake", False), given.get("snow", False))
     assert found == PUBLISHED and len(PUBLISHED) == 14
@@ -95,23 +101,28 @@ def test_fourteen_scripts():
 def test_without_yade(script):
     """A line, whether or not that Python has the package."""
     for python in (sys.executable, "python3"):
-        done = subprocess.run([python, str(SCRIPTS / f"{script}.py")], capture_output=True, text=True, env={"PATH": os.environ["PATH"]})
+        done = subprocess.run([python, str(SCRIPTS / f"{script}.py")], capture_output=True, text=True,
+                              env={"PATH": os.environ["PATH"]})
         assert done.returncode == 1 and done.stderr.count("\n") == 1 and "yade -n -x" in done.stderr, done.stderr
 
 
 def test_summary(straight, shove):
     found = summary(straight)
     assert set(KEYS) <= set(found)
-    assert (found["scenario"], found["model"], found["earthquake"], found["snow"]) == ("modelB1_quake", "B1", True, False)
+    assert (found["scenario"], found["model"], found["earthquake"],
+            found["snow"]) == ("modelB1_quake", "B1", True, False)
     assert (found["steps"], found["duration_s"], found["dt"], found["threads"]) == (1200, 0.6, 5e-4, 1)
-    assert found["record"]["pga_gal"] == {"ns": 2000, "ew": 4000, "ud": 1500} and shove.name in found["record"]["source"]
-    assert found["record"]["dt"] == 0.01 and 0 < found["record"]["interpolation_error"] < 1  # the ends of a constant, and nothing else
+    assert found["record"]["pga_gal"] == {"ns": 2000, "ew": 4000, "ud": 1500}
+    assert shove.name in found["record"]["source"]
+    assert found["record"][
+        "dt"] == 0.01 and 0 < found["record"]["interpolation_error"] < 1  # the ends of a constant, and nothing else
     assert found["joints"]["total"] == sum(n for kind, n in found["joints"].items() if kind != "total")
     assert set(found["broken"]["by_side"]) == {"north", "south", "east", "west", "inside"}
     assert set(found["broken"]["by_storey"]) == {"1", "2", "entrance"}
     assert found["broken"]["damaged_at_start"]["column_beam"] == 8
     for drift in ("peak_drift", "residual_drift"):
-        assert all(found[drift][storey][direction] >= 0 for storey in ("storey1", "storey2") for direction in ("ns", "ew"))
+        assert all(
+            found[drift][storey][direction] >= 0 for storey in ("storey1", "storey2") for direction in ("ns", "ew"))
     assert set(found["versions"]) == {"yade", "package"} and all(found["versions"].values())
 
 
@@ -133,7 +144,11 @@ def test_events(straight):
     """The first break is that of the list of breaks; the house still moves when the run ends."""
     found, first = summary(straight), next(csv.DictReader(open(straight / "breaks.csv")))
     (event,) = (event for event in found["events"] if event["kind"] == "first_break")
-    facts = {"joint": first["kind"], **{key: first[key] for key in ("storey", "side", "cause")}, "force_n": pytest.approx(float(first["force [N]"]))}
+    facts = {
+        "joint": first["kind"], **{key: first[key]
+                                   for key in ("storey", "side", "cause")}, "force_n": pytest.approx(
+            float(first["force [N]"]))
+    }
     assert event["time_s"] == pytest.approx(float(first["time [s]"]), abs=1e-6) and event["facts"] == facts
     assert [event["time_s"] for event in found["events"]] == sorted(event["time_s"] for event in found["events"])
     assert found["still_moving"] is True and max(found["final_amplitude"]["storey1"].values()) > 1e-3
@@ -190,10 +205,15 @@ def test_frames(straight):
     """20 a second and the last state; they agree with the other results, and print in a line."""
     made, found = frames.load(straight / frames.NAME), summary(straight)
     assert np.allclose(made.time, np.arange(13) * 0.05) and np.allclose(made.contacts.time, [0, 0.5, 0.6])
-    assert made.summary == Summary.read(straight) and made.title == "House B1: earthquake" and len(made.breaks["time"]) == found["broken"]["springs"]
-    assert made.history.text() == (straight / "history.csv").read_text() and len(repr(made)) < 150 > len(repr(made.contacts))
+    assert made.summary == Summary.read(straight)
+    assert made.title == "House B1: earthquake"
+    assert len(made.breaks["time"]) == found["broken"]["springs"]
+    assert made.history.text() == (straight / "history.csv").read_text()
+    assert len(repr(made)) < 150 > len(repr(made.contacts))
     states = made.joint_states(-1)
-    assert (states == "broken").sum() == found["broken"]["total"] and (states == "partly").sum() == found["broken"]["partly_broken"]
+    assert (states
+            == "broken").sum() == found["broken"]["total"] and (states
+                                                                == "partly").sum() == found["broken"]["partly_broken"]
     assert (states == "before").sum() == found["broken"]["damaged_at_start"]["total"]
     assert 0.5 < made.load.max() <= 1 and np.ptp(made.position[:, made.elements.kind.index("roof")], axis=0).max() > 0.1
     assert np.allclose(np.linalg.norm(made.orientation, axis=2), 1, atol=1e-6)
@@ -265,7 +285,8 @@ def test_killed_and_resumed(tmp_path, shove, straight):
     def options(duration):
         return [*SHOVED, "--duration", duration, "--record", shove, "--out", tmp_path, "--checkpoint", 0.05]
 
-    victim = subprocess.Popen([*YADE, "-j1", str(SCRIPTS / "modelB1_quake.py"), *map(str, options(0.6))], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    victim = subprocess.Popen([*YADE, "-j1", str(SCRIPTS / "modelB1_quake.py"), *map(str, options(0.6))],
+                              stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     wait_for(lambda: (tmp_path / "checkpoint.yade").exists(), victim)
     victim.kill()
     victim.wait()
@@ -285,8 +306,10 @@ def wait_for(condition, process, seconds=60):
 
 def test_interrupted(tmp_path):
     """SIGTERM: a checkpoint, one line, status 128 + 15; a checkpoint of another scenario is refused."""
-    victim = subprocess.Popen([*YADE, "-j1", str(SCRIPTS / "modelA_quake.py"), *SHORT, "--checkpoint", "0.02", "--out", str(tmp_path)], stdin=subprocess.DEVNULL,
-                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    victim = subprocess.Popen(
+        [*YADE, "-j1",
+         str(SCRIPTS / "modelA_quake.py"), *SHORT, "--checkpoint", "0.02", "--out",
+         str(tmp_path)], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     wait_for(lambda: (tmp_path / "checkpoint.yade").exists(), victim)
     victim.terminate()
     _, said = victim.communicate(timeout=60)
@@ -296,7 +319,8 @@ def test_interrupted(tmp_path):
     assert "checkpoint.yade" in other.stderr and "dt is 0.0002 there and 0.0001 here" in other.stderr
     early = run("modelA_quake", *SHORT, "--duration", "0.001", "--out", tmp_path, "--resume")
     assert early.returncode == 1 and "--duration 0.001" in early.stderr
-    anew = run("modelA_quake", *SHORT, "--dt", "1e-4", "--duration", "0.001", "--out", tmp_path, "--resume", "--or-anew")
+    anew = run("modelA_quake", *SHORT, "--dt", "1e-4", "--duration", "0.001", "--out", tmp_path, "--resume",
+               "--or-anew")
     assert anew.returncode == 0 and summary(tmp_path)["steps"] == 10, anew.stderr
 
 
@@ -324,7 +348,9 @@ def test_resume_without_the_frames_of_the_run(tmp_path, straight):
         setattr(made, name, getattr(made, name)[:1])
     frames.save(recorded, made)
     refused()
-    assert run("modelA_snow", *longer, "--no-frames").returncode == 0 and summary(tmp_path)["steps"] == 500 and not recorded.exists()
+    assert run("modelA_snow", *longer, "--no-frames").returncode == 0
+    assert summary(tmp_path)["steps"] == 500
+    assert not recorded.exists()
     longer[longer.index(0.1)] = 0.12
     assert run("modelA_snow", *longer, "--or-anew").returncode == 0 and len(frames.load(recorded).time) == 4
 
@@ -345,8 +371,10 @@ def test_interrupted_at_once_or_twice(tmp_path, times):
     """
     script = tmp_path / "script.py"
     script.write_text(INTERRUPTED.format(times=times, options=[*SHORT, "--out", str(tmp_path / "out")]))
-    done = subprocess.run([*YADE, "-j1", str(script)], stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=120)
-    assert done.returncode == 128 + signal.SIGINT and len(own_errors(done)) == 1 and "SIGINT" in done.stderr, done.stderr
+    done = subprocess.run([*YADE, "-j1", str(script)], stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                          timeout=120)
+    assert done.returncode == 128 + signal.SIGINT and len(
+        own_errors(done)) == 1 and "SIGINT" in done.stderr, done.stderr
 
 
 def test_no_port_is_open_during_a_run(tmp_path):
@@ -367,8 +395,11 @@ def test_output_files_follow_the_umask(tmp_path):
     """Parts of files that killed processes have left are removed."""
     (tmp_path / "out").mkdir()
     (tmp_path / "out" / ".part-0123-frames.h5").write_text("half")
-    done = subprocess.run(["sh", "-c", 'umask 027; exec "$0" "$@"', *YADE, "-j1", str(SCRIPTS / "modelA_snow.py"), *SHORT, "--duration", "0.01", "--out", str(tmp_path / "out")],
-                          stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=120)
+    done = subprocess.run([
+        "sh", "-c", 'umask 027; exec "$0" "$@"', *YADE, "-j1",
+        str(SCRIPTS / "modelA_snow.py"), *SHORT, "--duration", "0.01", "--out",
+        str(tmp_path / "out")
+    ], stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=120)
     modes = {path.name: oct(path.stat().st_mode & 0o777) for path in (tmp_path / "out").iterdir()}
     assert done.returncode == 0 and len(modes) >= 5 and set(modes.values()) == {"0o640"}, (modes, done.stderr)
     assert not [name for name in modes if name.startswith(".part")]
@@ -384,8 +415,10 @@ def test_a_collapse_ends_the_run_on_request(tmp_path, shove):
         assert done.returncode == 0, done.stderr
     whole, ended = (summary(tmp_path / name) for name in ("whole", "ended"))
     assert ended["until_collapse"] and not whole["until_collapse"] and whole["duration_s"] == 1
-    assert ended["collapse_time_s"] == whole["collapse_time_s"] and 0 <= ended["duration_s"] - ended["collapse_time_s"] < 0.0505
-    assert ended["steps"] == round(ended["duration_s"] / 4e-4) and ended["events"] == whole["events"][: len(ended["events"])]
+    assert ended["collapse_time_s"] == whole["collapse_time_s"]
+    assert 0 <= ended["duration_s"] - ended["collapse_time_s"] < 0.0505
+    assert ended["steps"] == round(ended["duration_s"] / 4e-4)
+    assert ended["events"] == whole["events"][:len(ended["events"])]
     histories = [(tmp_path / name / "history.csv").read_text() for name in ("whole", "ended")]
     assert histories[0].startswith(histories[1])
     again = run("house", *options, "--until-collapse", "--out", tmp_path / "ended", "--resume")
@@ -397,7 +430,11 @@ def test_a_collapse_ends_the_run_on_request(tmp_path, shove):
 def test_one_process_a_folder(tmp_path):
     with lock.locked(tmp_path) as free:
         other = run("modelA_snow", "--duration", 0.001, "--out", tmp_path)
-    assert free and other.returncode == 1 and str(tmp_path) in other.stderr and "another process" in other.stderr and len(own_errors(other)) == 1
+    assert free
+    assert other.returncode == 1
+    assert str(tmp_path) in other.stderr
+    assert "another process" in other.stderr
+    assert len(own_errors(other)) == 1
 
 
 def test_nothing_simulated(tmp_path):
@@ -405,9 +442,13 @@ def test_nothing_simulated(tmp_path):
     summary, those of the output are not.
     """
     done = run("modelA_snow", "--duration", 0, "--dt", "2e-4", "--out", tmp_path)
-    assert done.returncode == 0 and (tmp_path / "front.png").exists() and not (tmp_path / "history.png").exists(), done.stderr
+    assert done.returncode == 0 and (tmp_path /
+                                     "front.png").exists() and not (tmp_path / "history.png").exists(), done.stderr
     found = summary(tmp_path)
-    assert found["steps"] == 0 and found["made_from"]["options"] == {"name": "modelA_snow", "house": "A", "snow": 1.0, "duration": 0.0, "dt": 2e-4}
+    assert found["steps"] == 0
+    assert found["made_from"]["options"] == {
+        "name": "modelA_snow", "house": "A", "snow": 1.0, "duration": 0.0, "dt": 2e-4
+    }
 
 
 def test_a_motion_without_shaking(tmp_path):
@@ -422,8 +463,10 @@ def test_export_alone(tmp_path):
     """
     assert run("modelA_snow", *SHORT, "--duration", 0.02, "--out", tmp_path).returncode == 0
     before = {path.name: path.stat().st_mtime_ns for path in tmp_path.iterdir() if path.name != lock.LOCK}
-    assert run("modelA_snow", *SHORT, "--duration", 0, "--export", tmp_path.with_suffix(".json"), "--out", tmp_path).returncode == 0
-    assert run("modelA_snow", *SHORT, "--duration", 0.02, "--export", tmp_path / "no" / "where.json", "--out", tmp_path).returncode == 1
+    assert run("modelA_snow", *SHORT, "--duration", 0, "--export", tmp_path.with_suffix(".json"), "--out",
+               tmp_path).returncode == 0
+    assert run("modelA_snow", *SHORT, "--duration", 0.02, "--export", tmp_path / "no" / "where.json", "--out",
+               tmp_path).returncode == 1
     assert json.loads(tmp_path.with_suffix(".json").read_text())["elements"]
     assert before == {path.name: path.stat().st_mtime_ns for path in tmp_path.iterdir() if path.name != lock.LOCK}
 
@@ -439,7 +482,8 @@ def test_failed_run_is_named_as_cut_off(tmp_path):
     lines = own_errors(done)
     expected = ("check the unit", "constant part", "left the physical range")
     assert done.returncode == 1 and len(lines) == len(expected), done.stderr
-    assert all(phrase in line for phrase, line in zip(expected, lines)) and "the run stops at 0.1400 s" in lines[-1], done.stderr
+    assert all(phrase in line
+               for phrase, line in zip(expected, lines)) and "the run stops at 0.1400 s" in lines[-1], done.stderr
     assert "left the physical range" in summary(tmp_path)["cut_off"] and not (tmp_path / frames.NAME).exists()
 
 
@@ -447,14 +491,18 @@ def test_messages_pictures_export(tmp_path):
     """Without --quiet: house and loads first, a bar, a sentence, the files written; all of them are there. Snow only,
     with the scene exported.
     """
-    done = run("modelA_snow", "--dt", "2e-4", "--duration", "0.02", "--out", tmp_path / "out", "--export", tmp_path / "scene.json")
+    done = run("modelA_snow", "--dt", "2e-4", "--duration", "0.02", "--out", tmp_path / "out", "--export",
+               tmp_path / "scene.json")
     assert done.returncode == 0, done.stderr
     assert [line for line in done.stdout.splitlines() if "House" in line][0] == "House A: 1 m of snow only"
-    assert "House A is undamaged: peak storey drift" in done.stdout and re.search(r"snow 5\.6 t$", done.stdout, re.MULTILINE)
+    assert "House A is undamaged: peak storey drift" in done.stdout
+    assert re.search(r"snow 5\.6 t$", done.stdout, re.MULTILINE)
     *_, written, following = done.stdout.splitlines()
     files = written.removeprefix("written: ").split(", ")
     assert following == f"next: xdg-open {tmp_path / 'out' / 'player.html'}" and Path(following.split()[-1]).is_file()
-    assert {Path(name).name for name in files} >= {"summary.json", "history.csv", "breaks.csv", "end_state.png", "checkpoint.yade", "scene.json"}
+    assert {Path(name).name
+            for name in files
+            } >= {"summary.json", "history.csv", "breaks.csv", "end_state.png", "checkpoint.yade", "scene.json"}
     assert all(Path(name).stat().st_size > 0 for name in files) and "0.02 s" in done.stderr
     assert summary(tmp_path / "out")["record"] is None and not list(tmp_path.rglob(".part*"))
     assert json.loads((tmp_path / "scene.json").read_text())["joints"]
@@ -468,8 +516,13 @@ def test_live_session(tmp_path):
         ours, theirs = pty.openpty()
     except OSError:
         pytest.skip("this system has no pseudo-terminal")
-    command = [YADE[0], "-n", str(SCRIPTS / "modelA_snow.py"), "--dt", "2e-4", "--duration", "0.52", "--no-views", "--out", str(tmp_path)]
-    session = subprocess.Popen(command, stdin=theirs, stdout=theirs, stderr=subprocess.STDOUT, close_fds=True, env={**os.environ, "TERM": "dumb"})
+    command = [
+        YADE[0], "-n",
+        str(SCRIPTS / "modelA_snow.py"), "--dt", "2e-4", "--duration", "0.52", "--no-views", "--out",
+        str(tmp_path)
+    ]
+    session = subprocess.Popen(command, stdin=theirs, stdout=theirs, stderr=subprocess.STDOUT, close_fds=True,
+                               env={**os.environ, "TERM": "dumb"})
     os.close(theirs)
     said = ""
     try:

@@ -57,7 +57,8 @@ def test_plate_taken_out_from_under_a_joint():
 def test_joint_of_a_body_that_never_was():
     column_on_plate()
     alone = yt.stable_dt()
-    find_engine(yt.JointEngine).append(yt.TimberJoint(id1=0, id2=77, anchors1=[(0, 0, 0)], anchors2=[(0, 0, 0)], kn=1, ks=1, strength=1))
+    find_engine(yt.JointEngine).append(
+        yt.TimberJoint(id1=0, id2=77, anchors1=[(0, 0, 0)], anchors2=[(0, 0, 0)], kn=1, ks=1, strength=1))
     assert yt.stable_dt() == pytest.approx(alone, rel=1e-6)
     with pytest.raises(RuntimeError, match="joints.1.: id1 = 0, id2 = 77: they must be ids of two bodies"):
         O.step()
@@ -96,7 +97,9 @@ def test_loaded_body_released(steps):
     O.bodies[block].dynamic = True
     for _ in range(200):
         O.step()
-        assert max(b.state.vel.norm() for b in O.bodies) < 0.05  # [m/s] its own contacts close by x = 63 micrometres: sqrt(g x) = 0.025; with the effective masses of the fixed body 1.8
+        # [m/s] its own contacts close by x = 63 micrometres: sqrt(g x) = 0.025; with the effective masses of the fixed
+        # body 1.8
+        assert max(b.state.vel.norm() for b in O.bodies) < 0.05
 
 
 @pytest.mark.parametrize("fixed_first", [True, False])
@@ -140,7 +143,8 @@ def test_fixed_bodies_move_with_their_velocities():
 
 
 def test_numbers_that_would_end_the_process():
-    for refused in (lambda: yw.HealthCheck(every=0), lambda: yw.RestSkipper(stride=0), lambda: yw.RoundedPolyhedron().massProperties()):
+    for refused in (lambda: yw.HealthCheck(every=0), lambda: yw.RestSkipper(stride=0),
+                    lambda: yw.RoundedPolyhedron().massProperties()):
         with pytest.raises((ValueError, RuntimeError)):
             refused()
     column_on_plate()
@@ -224,7 +228,8 @@ def test_refused_shapes_leave_others_alone():
     for place in ((nan, 0, 0), (nan, nan, nan)):
         with pytest.raises((ValueError, RuntimeError)):
             yt.box((1, 2, 3), place, radius=0.04)
-    assert_close([yt.box(size, (0, 0, 0), radius=0.04).state.mass for size in ((1, 2, 3), (5, 5, 5))], [340 * 6, 340 * 125], rtol=1e-12)
+    assert_close([yt.box(size, (0, 0, 0), radius=0.04).state.mass for size in ((1, 2, 3), (5, 5, 5))],
+                 [340 * 6, 340 * 125], rtol=1e-12)
     assert_close(kept.state.mass, 340 * 6, rtol=1e-12)
 
 
@@ -272,7 +277,8 @@ def test_stable_dt_of_one_block_is_the_closed_form():
     half, a, inertia = state.pos[2], abs(point["position"][0]), state.inertia[0]
     stiffness = 4 * np.array([[ks, ks * half], [ks * half, ks * half**2 + kn * a**2]])
     highest = max(np.linalg.eigvals(np.diag([1 / state.mass, 1 / inertia]) @ stiffness))
-    assert_close(yt.stable_dt(1.0), 2 / np.sqrt(max(highest, 4 * kn / state.mass)), rtol=1e-3)  # stop of the power iteration
+    assert_close(yt.stable_dt(1.0), 2 / np.sqrt(max(highest, 4 * kn / state.mass)),
+                 rtol=1e-3)  # stop of the power iteration
 
 
 def test_springs_along_the_normal_only():
@@ -286,7 +292,8 @@ def test_springs_along_the_normal_only():
     O.bodies.append([yt.box((1, 1, 1), (0, 0, 0), fixed=True), yt.box((1, 1, 1), (0, 0, 2))])
     O.engines = [yw.ForceResetter(), yw.JointEngine(), yw.SymplecticIntegrator()]
     state = O.bodies[1].state
-    joint = yt.connect(0, 1, [tuple(state.pos)], (0, 0, 1), stiffness=(1e4 * state.mass, 0), strength=np.inf, damping_ratio=0.0)
+    joint = yt.connect(0, 1, [tuple(state.pos)], (0, 0, 1), stiffness=(1e4 * state.mass, 0), strength=np.inf,
+                       damping_ratio=0.0)
     state.vel, O.dt = (0.3, 0, 0.2), 1e-4
     O.run(100, True)
     assert_close(state.pos[0], 0.3 * O.time, rtol=1e-12)
@@ -310,7 +317,8 @@ def test_springs_along_the_normal_only():
         (lambda: yt.connect(0, 1, [(0, 0, 0)], stiffness=(1e5, 2e5), slip=yt.SlipLaw(0.2, 0.3)), "equal to kn, or 0"),
         (lambda: yt.connect(0, 1, [(0, 0, 0)], stiffness=(1e5, np.inf)), "connect: stiffness"),
         (lambda: yt.TimberJoint(anchors1=[(0, 0, 0)], anchors2=[(0, 0, 0)], kn=1, ks=1), "strength"),
-        (lambda: yt.TimberJoint(anchors1=[(0, 0, 0)], anchors2=[(0, 0, 0)], kn=1, ks=1, strength=1, broken=[0, 0]), "broken"),
+        (lambda: yt.TimberJoint(anchors1=[(0, 0, 0)], anchors2=[(0, 0, 0)], kn=1, ks=1, strength=1, broken=[0, 0]),
+         "broken"),
     ],
 )
 def test_wrong_calls_say_what_is_wrong(call, words):

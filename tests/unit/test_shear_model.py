@@ -104,6 +104,14 @@ def test_factors_meet_the_required_quantity():
     assert factors[2, "ns"] == pytest.approx(1.25 * 0.21 * 7.28 * 6.37 / (0.91 * 48.8))
 
 
+def test_wall_quantities_of_the_performance_labelling():
+    """Published example: grade 3 with a light roof has 54 K1 and 22 K2; Rf = 0.9 gives 50.8 and 30.3 cm/m2."""
+    assert grades.required_share(1.5, "label", 1.0) == pytest.approx([0.69, 0.411])
+    assert np.array(grades.required_share(1.5, "label", 0.9)) == pytest.approx(
+        [0.508 * 69 / 54, 0.303 * 30 / 22], rel=2e-3)
+    assert grades.required_share(1.25, "law", 0.9) == pytest.approx([0.4125, 0.2625])
+
+
 @pytest.mark.parametrize("level", graded.LEVELS)
 def test_a_graded_house_has_its_walls(level, tmp_path):
     """All bays of tiled_house, each sheet with the factor, at every drift."""

@@ -11,45 +11,50 @@ from yade_timber.scene.engines import find_engine
 
 NAN, INF = math.nan, math.inf
 PAIR = {"mass": 1, "friction": 0.5, "shearRatio": 0.4, "dampingRatio": 1, "overlapLimit": 0.01}
-PARAMETERS = {phys: set(getattr(yw, phys)().dict()) - set(yw.ManifoldPhys().dict()) for _, phys, _ in compiled.contact_laws()}
+PARAMETERS = {
+    phys: set(getattr(yw, phys)().dict()) - set(yw.ManifoldPhys().dict())
+    for _, phys, _ in compiled.contact_laws()
+}
 """Parameters of each contact law."""
 JOINT = {"anchors1": [(0, 0, 0)], "anchors2": [(0, 0, 0)], "kn": 1, "ks": 1, "strength": 1}
 SLIP = JOINT | {"law": "slip", "frictionShare": 0.5, "softeningStretch": 2, "ultimateStretch": 3}
 POSITIVE, POSITIVE_OR_INFINITE, NOT_NEGATIVE = (0, -1, NAN, INF), (0, -1, NAN), (-1, NAN, INF)
 
 RANGES = [  # class, attributes that make it complete, owner of the attribute in the message, attribute, refused values
-    *[(yw.ContactForces, {}, "ContactForces", *one) for one in (("sweeps", (-1,)), ("tolerance", POSITIVE))],
+    *[(yw.ContactForces, {}, "ContactForces", *one) for one in (("sweeps", (-1, )), ("tolerance", POSITIVE))],
     *[(getattr(yw, ip2), {}, ip2, "dampingRatio", NOT_NEGATIVE) for ip2, _, _ in compiled.contact_laws()],
-    *[
-        (yw.SnowPhys, PAIR | {"stiffness": 1}, "ManifoldPhys", *one)
-        for one in (("mass", POSITIVE_OR_INFINITE), ("friction", NOT_NEGATIVE), ("shearRatio", POSITIVE), ("dampingRatio", NOT_NEGATIVE), ("overlapLimit", POSITIVE))
-    ],
-    *[
-        (getattr(yw, phys), PAIR | dict.fromkeys(own - {name}, 1), phys, name, POSITIVE)
-        for phys, own in PARAMETERS.items()
-        for name in sorted(own)
-    ],
-    *[(yw.TimberJoint, JOINT, "TimberJoint", *one) for one in (("kn", POSITIVE), ("ks", NOT_NEGATIVE), ("strength", POSITIVE_OR_INFINITE))],
-    *[(yw.TimberJoint, JOINT, "TimberJoint", name, refused) for name, refused in (("frictionShare", (-0.1, 1.1, NAN)), ("softeningStretch", POSITIVE_OR_INFINITE))],
-    *[
-        (yw.TimberJoint, SLIP, "TimberJoint", *one)
-        for one in (("ks", (2, NAN)), ("softeningStretch", (0.5, NAN, INF)), ("ultimateStretch", (1.5, NAN, INF)), ("law", ("ductile",)))
-    ],
-    (yw.TimberJoint, SLIP, "TimberJoint", "envelope", ([(1, 1)], [(1, 1), (1, 0)], [(1, 1), (2, 1)], [(0.5, 1), (2, 0)], [(NAN, 1), (2, 0)], [(1, -1), (2, 0)])),
+    *[(yw.SnowPhys, PAIR | {"stiffness": 1}, "ManifoldPhys", *one)
+      for one in (("mass", POSITIVE_OR_INFINITE), ("friction", NOT_NEGATIVE), ("shearRatio", POSITIVE),
+                  ("dampingRatio", NOT_NEGATIVE), ("overlapLimit", POSITIVE))],
+    *[(getattr(yw, phys), PAIR | dict.fromkeys(own - {name}, 1), phys, name, POSITIVE)
+      for phys, own in PARAMETERS.items()
+      for name in sorted(own)],
+    *[(yw.TimberJoint, JOINT, "TimberJoint", *one)
+      for one in (("kn", POSITIVE), ("ks", NOT_NEGATIVE), ("strength", POSITIVE_OR_INFINITE))],
+    *[(yw.TimberJoint, JOINT, "TimberJoint", name, refused)
+      for name, refused in (("frictionShare", (-0.1, 1.1, NAN)), ("softeningStretch", POSITIVE_OR_INFINITE))],
+    *[(yw.TimberJoint, SLIP, "TimberJoint", *one)
+      for one in (("ks", (2, NAN)), ("softeningStretch", (0.5, NAN, INF)), ("ultimateStretch", (1.5, NAN, INF)),
+                  ("law", ("ductile", )))],
+    (yw.TimberJoint, SLIP, "TimberJoint", "envelope", ([(1, 1)], [(1, 1), (1, 0)], [(1, 1), (2, 1)], [(0.5, 1), (2, 0)],
+                                                       [(NAN, 1), (2, 0)], [(1, -1), (2, 0)])),
     (yw.TimberJoint, SLIP | {"envelope": [(1, 0.5), (2, 1), (3, 0)]}, "TimberJoint", "strength", (0.5, 2, NAN)),
     (yw.TimberJoint, JOINT, "TimberJoint", "normal", ((0, 0, 0), (0, 0, 2), (NAN, 0, 1))),
-    *[(yw.TimberJoint, JOINT, "TimberJoint", name, ([(0, 0, NAN)], [(0, 0, 0)] * 2)) for name in ("anchors1", "anchors2")],
-    (yw.TimberJoint, JOINT, "TimberJoint", "broken", ([0, 0],)),
+    *[(yw.TimberJoint, JOINT, "TimberJoint", name, ([(0, 0, NAN)], [(0, 0, 0)] * 2))
+      for name in ("anchors1", "anchors2")],
+    (yw.TimberJoint, JOINT, "TimberJoint", "broken", ([0, 0], )),
     (yw.TimberJoint, JOINT, "TimberJoint", "dampingRatio", (-0.1, 1.1, NAN)),
 ]
 
 
-@pytest.mark.parametrize("kind, complete, owner, name, refused", RANGES, ids=lambda x: getattr(x, "__name__", x if isinstance(x, str) else ""))
+@pytest.mark.parametrize("kind, complete, owner, name, refused", RANGES,
+                         ids=lambda x: getattr(x, "__name__", x if isinstance(x, str) else ""))
 def test_values_out_of_range_are_refused(kind, complete, owner, name, refused):
     for value in refused:
         with pytest.raises(ValueError) as refusal:
             kind(**{**complete, name: value})
-        assert owner in str(refusal.value) and (name in str(refusal.value) or name == "anchors1")  # two lengths that differ: the second one is named
+        assert owner in str(refusal.value) and (name in str(refusal.value) or name == "anchors1"
+                                                )  # two lengths that differ: the second one is named
         if isinstance(value, (int, float)):
             assert f"{value:g}" in str(refusal.value)
         given = kind(**{**complete, name: 1} if name in PARAMETERS.get(kind.__name__, ()) else complete)
@@ -79,7 +84,8 @@ def test_history_of_yielding_springs():
 
 
 def test_refused_length_leaves_the_springs():
-    joint = yw.TimberJoint(**{**JOINT, "anchors1": [(0, 0, 0)] * 4, "anchors2": [(0, 0, 0)] * 4, "broken": [0, 1, 0, 0]})
+    joint = yw.TimberJoint(
+        **{**JOINT, "anchors1": [(0, 0, 0)] * 4, "anchors2": [(0, 0, 0)] * 4, "broken": [0, 1, 0, 0]})
     for anchors in ([(0, 0, 0)], []):
         with pytest.raises(ValueError):
             joint.anchors1 = anchors
@@ -97,7 +103,10 @@ def rocking_column():
 
 def as_hex():
     """All that moves, to the last bit."""
-    return [x.hex() for b in O.bodies for v in (b.state.pos, b.state.vel, b.state.angMom, [b.state.ori[k] for k in range(4)]) for x in v]
+    return [
+        x.hex() for b in O.bodies
+        for v in (b.state.pos, b.state.vel, b.state.angMom, [b.state.ori[k] for k in range(4)]) for x in v
+    ]
 
 
 def test_stable_dt_changes_nothing():

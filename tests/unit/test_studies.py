@@ -20,7 +20,8 @@ import fragility
 def runs(house, scale, collapses, failed=0):
     """Runs of one point: finished ones (collapses: list of bool) and failed ones."""
     same = {"house": house, "snow": "0", "scale": str(scale)}
-    done = [{**same, "status": "done", "collapsed": fell, "collapse_time_s": 9.0 if fell else None} for fell in collapses]
+    done = [{**same, "status": "done", "collapsed": fell, "collapse_time_s": 9.0 if fell else None}
+            for fell in collapses]
     return done + [{**same, "status": "failed", "collapsed": None, "collapse_time_s": None}] * failed
 
 
@@ -38,17 +39,19 @@ def test_fit_recovers_a_known_curve():
     changes them by 0.1 %.
     """
     scales = [0.4, 0.6, 0.8, 1.0, 1.3, 1.6]
-    curve = [{"scale": s, "runs": 10000, "collapsed": round(10000 * stats.norm.cdf(np.log(s / 0.9) / 0.3))} for s in scales]
+    curve = [{"scale": s, "runs": 10000, "collapsed": round(10000 * stats.norm.cdf(np.log(s / 0.9) / 0.3))}
+             for s in scales]
     assert fragility.fit(curve) == pytest.approx((0.9, 0.3), rel=1e-3)
 
 
 @pytest.mark.parametrize(
     "collapsed, text",
-    [((0, 0, 0), "none collapses"), ((20, 20, 20), "all collapse"), ((0, 0, 4), "fewer than half collapse up to 2"), ((16, 20, 20), "more than half collapse from 0.5 on"),
-     ((0, 8, 20), "half collapse at 1.0")],
+    [((0, 0, 0), "none collapses"), ((20, 20, 20), "all collapse"), ((0, 0, 4), "fewer than half collapse up to 2"),
+     ((16, 20, 20), "more than half collapse from 0.5 on"), ((0, 8, 20), "half collapse at 1.0")],
 )
 def test_no_extrapolation_beyond_the_strengths_run(collapsed, text):
-    assert fragility.median_text([{"scale": s, "runs": 20, "collapsed": c} for s, c in zip((0.5, 1.0, 2.0), collapsed)]).startswith(text)
+    assert fragility.median_text(
+        [{"scale": s, "runs": 20, "collapsed": c} for s, c in zip((0.5, 1.0, 2.0), collapsed)]).startswith(text)
 
 
 def test_no_fit_without_a_transition():
@@ -59,7 +62,10 @@ def test_no_fit_without_a_transition():
 
 
 def test_fragility_picture(tmp_path):
-    found = [run for house in "AB" for scale, fell in ((0.5, 4), (1.0, 16)) for run in runs(house, scale, [True] * fell + [False] * (20 - fell))]
+    found = [
+        run for house in "AB" for scale, fell in ((0.5, 4), (1.0, 16))
+        for run in runs(house, scale, [True] * fell + [False] * (20 - fell))
+    ]
     fragility.plot(fragility.points(found), [0.0], tmp_path / "fragility.png")
     assert (tmp_path / "fragility.png").stat().st_size > 10000
 

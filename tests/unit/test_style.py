@@ -18,7 +18,10 @@ from yade_timber.motion import default_motion
 from yade_timber.pictures import curves, drawings, figures, fonts, motion_sheet, report, report_pictures, sheets
 from yade_timber.pictures.views import FRONT
 
-OTHER_TEXTS = {"white": "black", "black": "white", "DejaVu Sans": "DejaVu Serif", "sans-serif": "serif", "normal": "italic", "left": "right"}
+OTHER_TEXTS = {
+    "white": "black", "black": "white", "DejaVu Sans": "DejaVu Serif", "sans-serif": "serif", "normal": "italic",
+    "left": "right"
+}
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = ROOT / "py" / "yade_timber"
 RECORD = ROOT / "scripts" / "show" / "show_record.py"
@@ -53,7 +56,8 @@ def estranged():
 
 def settings_of_a_user():
     style.use("dark_background")
-    matplotlib.rcParams.update({"text.usetex": True, "font.size": 30, "savefig.bbox": "tight", "savefig.dpi": 20, "savefig.transparent": True})
+    matplotlib.rcParams.update(
+        {"text.usetex": True, "font.size": 30, "savefig.bbox": "tight", "savefig.dpi": 20, "savefig.transparent": True})
 
 
 def pages():
@@ -74,7 +78,9 @@ def files(folder, made):
     """{name: content} of the PNG and PDF files of figures, and their images in the report."""
     folder.mkdir()
     paths = [path for name, figure in made.items() for path in figures.save(figure, folder / name, ("png", "pdf"))]
-    return {path.name: path.read_bytes() for path in paths} | {name: report.picture(figure) for name, figure in made.items()}
+    return {path.name: path.read_bytes()
+            for path in paths} | {name: report.picture(figure)
+                                  for name, figure in made.items()}
 
 
 @pytest.fixture(scope="module")
@@ -119,7 +125,8 @@ def makers(path):
         if isinstance(node, ast.FunctionDef):
             calls = {ast.unparse(call.func).split(".")[-1] for call in ast.walk(node) if isinstance(call, ast.Call)}
             if calls & {"new_figure", "Figure", "savefig", "findfont"}:
-                yield f"{path.stem}.{node.name}", any("default_style" in ast.unparse(decorator) for decorator in node.decorator_list)
+                yield f"{path.stem}.{node.name}", any(
+                    "default_style" in ast.unparse(decorator) for decorator in node.decorator_list)
 
 
 def test_defaults_stand_around_every_figure():

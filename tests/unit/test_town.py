@@ -37,7 +37,10 @@ def write_town(folder, text=TOWN):
 
 def run(script, *options, threads=1):
     """CompletedProcess of a script."""
-    command = [shutil.which("yade") or "yade", "-n", "-x", f"-j{threads}", str(SCRIPTS / f"{script}.py"), *map(str, options)]
+    command = [
+        shutil.which("yade") or "yade", "-n", "-x", f"-j{threads}",
+        str(SCRIPTS / f"{script}.py"), *map(str, options)
+    ]
     return subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=300)
 
 
@@ -119,15 +122,17 @@ def houses(folder):
 
 def test_houses_and_frames_of_the_town(town):
     rows = houses(town[1])
-    assert [(row["lot"], row["house"], row["snow [m]"], row["delay [s]"]) for row in rows] == [
-        ("near", "B1", "0", "0"), ("far", "B1", "0", "0.2"), ("turned", "A", "0.5", "0"), ("walled", "walled", "0", "0.4")]
+    assert [(row["lot"], row["house"], row["snow [m]"], row["delay [s]"])
+            for row in rows] == [("near", "B1", "0", "0"), ("far", "B1", "0", "0.2"), ("turned", "A", "0.5", "0"),
+                                 ("walled", "walled", "0", "0.4")]
     whole, part = frames.load(town[1] / "frames.h5"), frames.load(town[1] / "lots" / "turned" / "frames.h5")
     number, own = whole.elements.name.index("turned.main.floor1"), part.elements.name.index("main.floor1")
     placed, alone = whole.corners(-1, number), part.corners(-1, own)
     turned = alone @ [[0, 1, 0], [-1, 0, 0], [0, 0, 1]]  # x to the north, y to the west
     assert placed - placed.mean(0) == pytest.approx(turned - turned.mean(0), abs=1e-4)  # float32 at 30 m
     assert key_times.first_shown(whole) == 0  # a town has no history of its own
-    assert len(whole.breaks["time"]) == sum(len(frames.load(town[1] / "lots" / row["lot"] / "frames.h5").breaks["time"]) for row in rows)
+    assert len(whole.breaks["time"]) == sum(
+        len(frames.load(town[1] / "lots" / row["lot"] / "frames.h5").breaks["time"]) for row in rows)
 
 
 def test_joints_and_wall_sheets_of_the_town_are_those_of_the_summaries(town):
@@ -142,10 +147,12 @@ def test_joints_and_wall_sheets_of_the_town_are_those_of_the_summaries(town):
 @pytest.mark.parametrize(
     "text, options, message",
     [
-        (TOWN.replace("x: 20", "x: 3"), [], "error: town.yaml:4: town.lots.far: the house overlaps that of lot near: move it by x or y, or turn it"),
+        (TOWN.replace("x: 20", "x: 3"), [],
+         "error: town.yaml:4: town.lots.far: the house overlaps that of lot near: move it by x or y, or turn it"),
         (TOWN, ["--export", "x.json"], "error: --export: not for towns; run a house with scripts/house.py"),
         (TOWN, ["--report"], "error: --report: not for towns; run a house with scripts/house.py"),
-        (TOWN.replace("velocity: 100", "velocity: 0"), [], "error: town.yaml:1: town.wave.velocity: must be a number in [50, 20000] m/s, got 0"),
+        (TOWN.replace("velocity: 100", "velocity: 0"), [],
+         "error: town.yaml:1: town.wave.velocity: must be a number in [50, 20000] m/s, got 0"),
         (TOWN, ["--scale", "2"], "error: --scale: this run has no earthquake; add --quake or --record FILE"),
     ],
 )

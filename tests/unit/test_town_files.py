@@ -4,10 +4,14 @@
 import numpy as np
 import pytest
 
+from summaries import sample_summary
 from yade_timber.house import HouseError, build_house, load_house, load_town
 from yade_timber.house.town import Lot, check_places
 from yade_timber.motion import GroundMotion
 from yade_timber.motion.processing import in_axes
+from yade_timber.recording.events import Event, SnowFallen, StructureFallen, Tilt
+from yade_timber.recording.town import summary as town_summary
+from yade_timber.recording.town import town_side
 
 GOOD = """name: harbour
 wave: {velocity: 500, direction: 90}
@@ -51,14 +55,28 @@ def test_without_a_wave_all_houses_shake_at_once(town):
     assert load_town(town(GOOD.replace("wave: {velocity: 500, direction: 90}\n", ""))).delays() == [0, 0]
 
 
+@pytest.mark.parametrize("rotation, side, direction", [(0, "west", "ns"), (90, "south", "ew"), (180, "east", "ns"),
+                                                       (270, "north", "ew"), (30, "west", "ns"), (60, "south", "ew")])
+def test_events_of_a_turned_lot_are_in_the_directions_of_the_town(rotation, side, direction):
+    """Sides and directions of the town that are nearest to those of the house."""
+    events = [Event(1.0, Tilt("ns")), Event(2.0, SnowFallen("", "west", "roof")), Event(3.0, StructureFallen("shed"))]
+    axes = Lot("", "A", 0, 0, rotation).axes
+    tilt, snow, fall = town_summary("x", {"lot": (sample_summary(events=events), axes)}, None).events
+    assert (tilt.facts.direction, snow.facts.side, fall.facts.structure) == (direction, side, "shed")
+    assert town_side("west+inside", axes) == f"{side}+inside"
+
+
 def test_motion_in_the_axes_of_a_turned_house():
     """A house turned by 90 degrees counter-clockwise: its x axis points north, so the town's north component acts along
     x.
     """
     motion = GroundMotion(0.01, [[1.0, 2.0, 3.0]] * 4)
     assert in_axes(motion, Lot("", "A", 0, 0, 0).axes) is motion
-    for rotation, expected in ((90, (2, -1, 3)), (180, (-1, -2, 3)), (-90, (-2, 1, 3)), (360, (1, 2, 3)), (-270, (2, -1, 3))):
-        assert in_axes(motion, Lot("", "A", 0, 0, rotation).axes).acceleration.tolist() == [list(expected)] * 4  # exact for right angles
+    for rotation, expected in ((90, (2, -1, 3)), (180, (-1, -2, 3)), (-90, (-2, 1, 3)), (360, (1, 2, 3)), (-270, (2, -1,
+                                                                                                                  3))):
+        assert in_axes(motion,
+                       Lot("", "A", 0, 0,
+                           rotation).axes).acceleration.tolist() == [list(expected)] * 4  # exact for right angles
     turned = in_axes(motion, Lot("", "A", 0, 0, 30).axes).acceleration
     assert np.linalg.norm(turned[0]) == pytest.approx(np.sqrt(14))
 
@@ -68,7 +86,8 @@ def test_the_middle_of_the_plan_is_at_the_place():
     for rotation in (0, 90, 37):
         lot = Lot("", "l_house", 5, -7, rotation)
         assert lot.outline(model).mean(0) == pytest.approx([5, -7])
-        points = np.concatenate([e.vertices for e in model.elements if e.kind != "ground"]) @ lot.axes.T + lot.origin(model)
+        points = np.concatenate([e.vertices for e in model.elements if e.kind != "ground"
+                                 ]) @ lot.axes.T + lot.origin(model)
         assert (points[:, :2].min(0) > lot.outline(model).min(0) - 1e-9).all()  # rounding
         assert (points[:, :2].max(0) < lot.outline(model).max(0) + 1e-9).all()
 
@@ -91,10 +110,13 @@ def test_overlapping_houses_are_refused(town):
 @pytest.mark.parametrize(
     "old, new, message",
     [
-        ("velocity: 500", "velocity: 5", r"town.yaml:2: town.wave.velocity: must be a number in \[50, 20000\] m/s, got 5$"),
-        ("direction: 90", "direction: north", r"town.yaml:2: town.wave.direction: expected a number in \[0, 360\] degrees, got 'north'$"),
+        ("velocity: 500", "velocity: 5",
+         r"town.yaml:2: town.wave.velocity: must be a number in \[50, 20000\] m/s, got 5$"),
+        ("direction: 90", "direction: north",
+         r"town.yaml:2: town.wave.direction: expected a number in \[0, 360\] degrees, got 'north'$"),
         (", direction: 90", "", r"town.yaml:2: town.wave: key 'direction' is missing$"),
-        ("x: -100", "x: 1e6", r"town.yaml:4: town.lots.west.x: must be a number in \[-20000, 20000\] m, got 1000000.0; in m: "),
+        ("x: -100", "x: 1e6",
+         r"town.yaml:4: town.lots.west.x: must be a number in \[-20000, 20000\] m, got 1000000.0; in m: "),
         ("house: A", "house: Z", r"town.yaml:4: town.lots.west.house: unknown house 'Z': .*known: A, B"),
         ("house: A, ", "", r"town.yaml:4: town.lots.west: key 'house' is missing$"),
         ("rotation: 90", "turn: 90", r"town.yaml:5: town.lots.east: unknown key 'turn'"),

@@ -51,7 +51,8 @@ def test_place_and_size():
 
 def test_sides_are_not_mirrored():
     """From the east, north is to the right; from the north, east is to the left."""
-    assert np.allclose(np.cross(FRONT.toward, FRONT.right), (0, 0, 1)) and np.allclose(np.cross(SIDE.toward, SIDE.right), (0, 0, 1))
+    assert np.allclose(np.cross(FRONT.toward, FRONT.right), (0, 0, 1))
+    assert np.allclose(np.cross(SIDE.toward, SIDE.right), (0, 0, 1))
 
 
 def test_crossing_bodies_share_the_picture():
@@ -63,7 +64,8 @@ def test_crossing_bodies_share_the_picture():
 
 def test_silhouette_has_outer_outlines_only():
     """A square frame of 2.2 m: one closed line around it, within a pixel; none along its hole."""
-    frame = [cube((0, y, 0.5), 0.2) for y in np.arange(-1, 1.01, 0.2)] + [cube((0, y, 2.5), 0.2) for y in np.arange(-1, 1.01, 0.2)]
+    frame = [cube((0, y, 0.5), 0.2)
+             for y in np.arange(-1, 1.01, 0.2)] + [cube((0, y, 2.5), 0.2) for y in np.arange(-1, 1.01, 0.2)]
     frame += [cube((0, y, z), 0.2) for y in (-1, 1) for z in np.arange(0.5, 2.51, 0.2)]
     (line,) = views.silhouette(frame, FRONT)
     assert np.allclose([line.min(0), line.max(0)], [(-1.1, 0.4), (1.1, 2.6)], atol=1 / views.OUTLINE_PIXELS)
@@ -83,7 +85,8 @@ def test_snow_neither_hazes_the_house_nor_belongs_to_its_outline():
     wall, snow = cube((0, 0, 0.5)), cube((5, 0, 1.0), kind="snow")
     window = Window(FRONT, BOX, 20)
     beside = raster.shade([wall], window, raster.front_of([wall], FRONT))[0][58, 32]
-    behind = raster.shade([wall, cube((5, 0.4, 0.5), 0.5, "snow")], window, raster.front_of([wall, snow], FRONT))[0][58, 32]
+    behind = raster.shade([wall, cube((5, 0.4, 0.5), 0.5, "snow")], window, raster.front_of([wall, snow], FRONT))[0][58,
+                                                                                                                     32]
     assert np.allclose(beside, behind)
     assert np.array_equal(views.silhouette([wall, snow], FRONT), views.silhouette([wall], FRONT))
 
@@ -97,7 +100,10 @@ def test_sheets_are_cropped_to_their_panels(count, columns):
     assert lowest == pytest.approx(sheets.FOOT + sheets.GAP)
 
 
-HOSTILE = ["A $\\frac{$ B", "$$$", "\\", "a\x00b\x1b[31m", "\ud800", "\u6728\u9020", "x" * 10**6, "", "{}%s", "<img src=x onerror=alert(1)>"]
+HOSTILE = [
+    "A $\\frac{$ B", "$$$", "\\", "a\x00b\x1b[31m", "\ud800", "\u6728\u9020", "x" * 10**6, "", "{}%s",
+    "<img src=x onerror=alert(1)>"
+]
 
 
 @pytest.mark.parametrize("name", HOSTILE)
@@ -144,7 +150,8 @@ def test_pdf_files_embed_truetype_fonts(tmp_path):
 
 
 def test_a_run_without_pictures_imports_no_matplotlib():
-    code = "import sys, yade_timber.pictures.all_pictures; sys.exit(any(name in sys.modules for name in ('matplotlib', 'moderngl')))"
+    code = ("import sys, yade_timber.pictures.all_pictures; "
+            "sys.exit(any(name in sys.modules for name in ('matplotlib', 'moderngl')))")
     assert subprocess.run([sys.executable, "-c", code]).returncode == 0
 
 
@@ -156,15 +163,18 @@ def coarse(monkeypatch):
 def test_pictures_are_written_whole(tmp_path, coarse):
     recorded.save(tmp_path / recorded.NAME, frames())
     written = all_pictures.write(tmp_path, pdf=True)
-    names = [name for name in all_pictures.NAMES if not name.startswith((all_pictures.QUANTITIES, all_pictures.BANDS))]  # no tables of quantities, no ensemble
-    assert [path.name for path in written] == names and {path.name for path in tmp_path.iterdir()} == {recorded.NAME, *names}
+    names = [name for name in all_pictures.NAMES if not name.startswith((all_pictures.QUANTITIES, all_pictures.BANDS))
+             ]  # no tables of quantities, no ensemble
+    assert [path.name for path in written] == names
+    assert {path.name for path in tmp_path.iterdir()} == {recorded.NAME, *names}
     assert all(path.read_bytes()[:4] in (b"\x89PNG", b"%PDF", b"<!DO") for path in written)
 
 
 def test_hostile_names_in_a_recording(tmp_path, coarse):
     """Title, model and kinds of elements and joints from a file that someone sends."""
     made = frames()
-    made.title, made.joints.kind, made.elements.kind = HOSTILE[0], ["$\\frac{$", "_x", "y" * 10**5], ["ground", "$a$", "x" * 10**5]
+    made.title, made.joints.kind, made.elements.kind = HOSTILE[0], ["$\\frac{$", "_x",
+                                                                    "y" * 10**5], ["ground", "$a$", "x" * 10**5]
     made.summary = made.summary.changed(model="$\\sqrt{$")
     recorded.save(tmp_path / recorded.NAME, made)
     for path in all_pictures.write(tmp_path):
@@ -182,4 +192,5 @@ def test_pictures_of_a_run_that_has_not_ended(tmp_path, coarse):
 def test_far_wreckage_does_not_shrink_the_house():
     start = [cube((0, 0, 0.5))]
     left, right, _, _ = views.box_of(FRONT, start, [[cube((0, 100, 0.5))]])
-    assert -0.5 - views.BORDER - views.GRID < left <= -0.5 - views.BORDER and 0 <= right - (0.5 + views.FAR + views.BORDER) < views.GRID
+    assert -0.5 - views.BORDER - views.GRID < left <= -0.5 - views.BORDER
+    assert 0 <= right - (0.5 + views.FAR + views.BORDER) < views.GRID

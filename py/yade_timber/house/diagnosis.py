@@ -72,11 +72,12 @@ def sentence(diagnosis):
 def comparison(summary):
     """Sentence on the first structure of a Summary whose index and outcome disagree; '' if none does.
 
-    Without an earthquake a structure that stands agrees with every index.
+    A structure that stands without an earthquake, or at the end of a run that left strong shaking out, agrees with
+    every index.
     """
     for name, facts in summary.structures.items():
         iw = _least({name: summary.diagnosis.structures.get(name, {"storeys": {}})}, "iw")[0]
-        stands_untested = not facts.collapsed and not summary.earthquake
+        stands_untested = not facts.collapsed and (not summary.earthquake or summary.missed_shaking is not None)
         if iw is None or facts.collapsed == (iw < 1.0) or stands_untested:
             continue
         outcome = "collapsed" if facts.collapsed else "stands"

@@ -30,7 +30,7 @@ node = Number("grid nodes", -1000, 1000)
 nodes = ListOf(node, scalar=True, most=MAX_LINES)
 storey = Number("", 1, MAX_STOREYS, whole=True)
 storeys = ListOf(storey, scalar=True, most=MAX_STOREYS, default=())
-axis = Record({"module": length(0.1, 20.0, default=None), "count": Number("modules", 1, 200, whole=True, default=1),
+axis = Record({"module": length(0.1, 20.0, default=None), "count": Number("modules", 1, 200, whole=True, default=None),
                "positions": ListOf(Number("m", -200, 200), most=MAX_LINES, default=None)},
               one_of=("module", "positions"))
 line = Record({"along": Choice(("x", "y")), "at": nodes, "from": node, "to": node, "cut": Flag(False)})

@@ -121,7 +121,9 @@ def _abut(nodes, other, axis, edge):
 def _positions(axis, path):
     """Grid positions [m] relative to the structure's origin."""
     if axis["positions"] is None:
-        return axis["module"] * np.arange(axis["count"] + 1)
+        return axis["module"] * np.arange((axis["count"] or 1) + 1)
+    if axis["count"] is not None:
+        raise HouseError(f"{axis.at('count')}: {path}.count: has no effect beside positions; remove it")
     positions = np.array(axis["positions"])
     if len(positions) < 2 or (np.diff(positions) < MIN_SPACING).any():
         raise HouseError(f"{axis.at('positions')}: {path}.positions: give at least two positions in rising order,"

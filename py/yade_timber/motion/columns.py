@@ -7,8 +7,6 @@ from .text import UP, Channel, finite, positive, require_step
 
 DIRECTIONS = {"ns": 0.0, "ew": 90.0, "ud": UP}
 ALIASES = {"n-s": "ns", "e-w": "ew", "u-d": "ud", "north": "ns", "east": "ew", "up": "ud", "t": "time"}
-COMMENT = ("#", '"#')
-"""Beginnings of a comment; a spreadsheet quotes it."""
 FILLING = ",; \t"
 """What a spreadsheet adds to short rows."""
 SPACING_TOLERANCE = 0.1
@@ -33,23 +31,34 @@ def column_name(cell):
 
 def equal_step(path, stated, times):
     """Time step [s]. stated: {'dt' or 'sampling': (text, place)}; times: column [s] or None. Raises RecordError."""
-    where = path
+    steps = {}
+    if "sampling" in stated:
+        text, where = stated["sampling"]
+        steps[where] = 1.0 / positive(text.lower().removesuffix("hz"), where)
     if "dt" in stated:
         text, where = stated["dt"]
-        step = finite(text.removesuffix("s"), where)
-    elif "sampling" in stated:
-        text, where = stated["sampling"]
-        step = 1.0 / positive(text.lower().removesuffix("hz"), where)
-    elif times is not None:
-        step = (times[-1] - times[0]) / (len(times) - 1)
-    else:
+        steps[where] = finite(text.removesuffix("s"), where)
+    if times is not None and not steps:
+        steps[path] = (times[-1] - times[0]) / (len(times) - 1)
+    if not steps:
         raise RecordError(f"{path}: no time step; give a time column [s] or a comment '# dt: 0.01' [s]")
+    where, step = steps.popitem()
     require_step(step, where)
+    if any(abs(other / step - 1) > 1e-6 for other in steps.values()):
+        raise RecordError(f"{where}: {step:g} s contradicts the rate of sampling; state one of them")
     if times is not None:
         late = np.abs(times - times[0] - step * np.arange(len(times))) / step
-        if late.max() > SPACING_TOLERANCE:
-            raise RecordError(f"{path}: sample {late.argmax()}: times are not {step:g} s apart; equal steps needed")
+        rounding = min(_rounding(times) / step, 1.0) if stated.keys() & {"dt", "sampling"} else 0.0
+        if late.max() > max(SPACING_TOLERANCE, rounding + 1e-6):
+            raise RecordError(f"{path}: sample {late.argmax()}: times are not {step:g} s apart; equal steps needed, or"
+                              " '# dt:' where the times are rounded")
     return step
+
+
+def _rounding(times):
+    """Half a unit of the last decimal with which they are printed, of at most six. [s]"""
+    digits = next((k for k in range(7) if np.abs(times * 10**k - np.round(times * 10**k)).max() < 1e-6), 7)
+    return 0.5 * 10.0**-digits
 
 
 def channels_of(path, names, rows, step, begins=None):

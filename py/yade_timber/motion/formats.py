@@ -11,10 +11,11 @@ import re
 
 from ..base.input_file import shown
 from . import knet
-from .columns import COMMENT, DIRECTIONS, FILLING, channels_of, column_name, equal_step, uncommented
+from .columns import DIRECTIONS, FILLING, channels_of, column_name, equal_step, uncommented
 from .networks import PLAIN_CSV, other_text
 from .record import RecordError, unit_factor
-from .text import Channel, clock, direction_of, finite, numbers, positive, require_count, require_step, table, whole
+from .text import (COMMENT, Channel, clock, direction_of, finite, numbers, positive, require_count, require_step, table,
+                   whole)
 
 AT2_HEADER_LINES = 20
 """Lines in which the number of samples of an AT2 file is searched."""
@@ -25,7 +26,7 @@ _PEKNOLD = "points at equal spacing of"
 
 def sniff(lines):
     """Reader of the format of the lines, or None."""
-    head = "\n".join(lines[:AT2_HEADER_LINES])
+    head = "\n".join(line for line in lines[:AT2_HEADER_LINES] if not line.startswith(COMMENT))
     start = next((line for line in lines if line.strip(FILLING)), "").strip().strip('"')
     if knet.is_ascii(lines):
         return knet.read_ascii
@@ -186,6 +187,8 @@ def _jma_header(path, lines):
 
 # --- plain CSV ----------------------------------------------------------------------------------
 
+_UNIQUE = ("dt", "sampling", "units", "unit", "samples")
+"""Comments that decide how the numbers are read."""
 _SECONDS = {"s": 1.0, "sec": 1.0, "ms": 1e-3, None: 1.0}
 
 
@@ -239,6 +242,10 @@ def _csv_comments(path, lines):
         line = line.strip(FILLING + '"')
         text = line[1:].replace("=", ":", 1) if "=" in line.partition(":")[0] else line[1:]
         key, _, value = (part.strip() for part in text.partition(":"))
-        if key.replace(" ", "").isalpha() and value:
-            pairs[key.lower()] = value, f"{path}:{number}: {key.lower()}"
+        if not key.replace(" ", "").isalpha() or not value:
+            continue
+        key, where = key.lower(), f"{path}:{number}: {key.lower()}"
+        if key in _UNIQUE and pairs.get(key, (value,))[0] != value:
+            raise RecordError(f"{where}: {shown(value)} contradicts {shown(pairs[key][0])} before it; state one")
+        pairs[key] = value, where
     return pairs

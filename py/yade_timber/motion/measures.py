@@ -226,15 +226,14 @@ def arias(motion):
 
 def significant_duration(motion, start=0.05, end=0.95):
     """Time in which the Arias intensity of all components grows from `start` to `end` of its final value. [s]"""
-    growth = _energy(motion).sum(axis=1)
-    if growth[-1] <= 0.0:
-        return 0.0
-    first, last = np.searchsorted(growth, np.array([start, end]) * growth[-1])
-    return float((last - first) * motion.dt)
+    first, last = onset(motion, start), onset(motion, end)
+    return 0.0 if first is None else last - first
 
 
 def onset(motion, share=0.05):
-    """Onset of strong shaking: the Arias intensity reaches `share` of its final value. [s]; None without shaking."""
+    """Onset of strong shaking: the Arias intensity reaches `share` of its final value. [s]; None without shaking. With
+    0.95: its end.
+    """
     growth = _energy(motion).sum(axis=1)
     return float(np.searchsorted(growth, share * growth[-1]) * motion.dt) if growth[-1] > 0.0 else None
 

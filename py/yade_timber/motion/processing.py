@@ -10,7 +10,7 @@ import scipy  # submodules (27 MB) load on first use; a plain run needs none
 
 from .filters import require_size, zero_phase_highpass
 from .measures import jma_intensity, pga
-from .record import GAL, RecordError, interpolated, peaks_gal
+from .record import GAL, GroundMotion, RecordError, interpolated, peaks_gal
 
 PAD_SECONDS = 5.0
 """Zeros added at the end before a band-limited resampling, which treats the record as periodic. [s]"""
@@ -145,8 +145,19 @@ def _fourier(motion, dt):
 
 def interpolation_error(motion, dt=0.0):
     """Largest error of straight lines between the samples, taken half way between them [fraction of the PGA]; 0 for a
-    run with a time step dt [s] that is not smaller than the samples'."""
-    return resample(motion, 0.5 * motion.dt, "linear")[1] if motion.dt > dt else 0.0
+    run with a time step dt [s] that is not smaller than the samples'. Of a sequence: between its motions' own samples.
+    """
+    peak = np.abs(motion.acceleration).max()
+    pieces = [_own_samples(motion, part) for part in motion.parts] or [motion]
+    return max((resample(piece, 0.5 * piece.dt, "linear")[1] * float(np.abs(piece.acceleration).max() / peak)
+                for piece in pieces if piece.dt > dt and peak > 0), default=0.0)
+
+
+def _own_samples(motion, part):
+    """A motion of a sequence with its own time step."""
+    first, end = (round(time / motion.dt) for time in (part.start, part.start + part.duration))
+    samples = motion.acceleration[first : end : round(part.dt / motion.dt)]
+    return GroundMotion(part.dt, samples, motion.name)
 
 
 def shaking_window(motion, threshold=0.5):
@@ -159,10 +170,11 @@ def shaking_window(motion, threshold=0.5):
 
 def _changed(motion, acceleration, change, dt=None, factor=1.0, start=0.0):
     """The motion with other samples. change: for its source; dt [s]; factor [-]; start: of the kept part [s]"""
+    parts = motion.parts if dt is None else tuple(replace(part, dt=dt) for part in motion.parts)
     dt = motion.dt if dt is None else dt
     source = f"{motion.source}; {change}".lstrip("; ")
     return replace(motion, dt=dt, acceleration=acceleration, source=source,
-                   parts=_changed_parts(motion.parts, acceleration, dt, factor, start))
+                   parts=_changed_parts(parts, acceleration, dt, factor, start))
 
 
 def _changed_parts(parts, acceleration, dt, factor, start):

@@ -131,6 +131,8 @@ def _find_by_prefix(prefix):
         if len(files) == 3:
             return files
         partial += [path.name for path in files]
+        if files:  # not another sensor in its place
+            break
     forms = " or ".join(form for _, _, form in SUFFIXES)
     seen = f"; found only {', '.join(sorted(partial))}" if partial else ""
     raise RecordError(f"{prefix}: no such file, and no three files {forms}{seen}")
@@ -149,8 +151,8 @@ def _directions(channels, component):
         raise RecordError(f"component={component}: {len(names)} directions for {len(channels)} components")
     for name in names:
         if direction_of(name) is None:
-            raise RecordError(f"component={shown(name)}: unknown direction; admissible: ns, ew, ud, down, azimuth 0 to"
-                              " 360")
+            raise RecordError(f"component={shown(name)}: unknown direction; admissible: ns, ew, ud, down, azimuth -360"
+                              " to 360")
     return list(map(direction_of, names))
 
 

@@ -17,13 +17,16 @@ DENOMINATOR = 100_000
 
 @dataclass(frozen=True)
 class Part:
-    """One motion of a sequence. start, duration [s]; scale: own factor [-]; pga_gal: {'ns', 'ew', 'ud'} after it."""
+    """One motion of a sequence. start, duration [s]; scale: own factor [-]; pga_gal: {'ns', 'ew', 'ud'} after it;
+    dt: own time step [s].
+    """
 
     source: str
     start: float
     duration: float
     scale: float
     pga_gal: dict
+    dt: float
 
 
 def joined(motions, scales, gap=DEFAULT_GAP):
@@ -40,7 +43,7 @@ def joined(motions, scales, gap=DEFAULT_GAP):
             pieces.append(quiet)
             start += len(quiet) * step
         pga = {axis: abs(scale) * value for axis, value in motion.pga_gal.items()}
-        parts.append(Part(motion.source or motion.name, start, len(samples) * step, scale, pga))
+        parts.append(Part(motion.source or motion.name, start, len(samples) * step, scale, pga, motion.dt))
         pieces.append(samples)
         start += len(samples) * step
     require_size(sum(map(len, pieces)), "the sequence")

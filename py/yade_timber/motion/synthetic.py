@@ -27,7 +27,7 @@ from .record import GAL, GroundMotion, RecordError
 GENERATOR_VERSION = 1
 """Raised whenever the output for a given seed changes."""
 DEFAULT_SEED = 3
-"""Of the shipped motion, under which an unbraced house falls N-S, as in the paper; others: research/claims."""
+"""Of the shipped motion, under which an unbraced house falls E-W (in the paper N-S); others: research/claims."""
 DT = 0.01
 """Time step. [s]"""
 DURATION = 40.0

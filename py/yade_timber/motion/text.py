@@ -27,6 +27,8 @@ MIN_STEP, MAX_STEP = 1e-4, 1.0
 """Time steps of accelerographs. [s]"""
 YEARS = range(1800, 2200)
 """Years of records."""
+COMMENT = ("#", '"#')
+"""Beginnings of a comment; a spreadsheet quotes it."""
 UP = "up"
 """Direction of a vertical channel, positive upwards; `DOWN` is positive downwards."""
 DOWN = "down"
@@ -81,7 +83,7 @@ def read_lines(path):
 def finite(text, where):
     """A finite number of at most MAX_NUMBER. Raises RecordError."""
     try:
-        value = float(_with_e(text))
+        value = np.nan if "_" in text else float(_with_e(text))  # Python reads 1_000 as 1000
     except ValueError:
         value = np.nan
     if not abs(value) <= MAX_NUMBER:
@@ -117,7 +119,7 @@ def numbers(path, lines, first):
         tokens += _with_e(line).split()
         _require_few_samples(len(tokens), f"{path}:{number}")
     try:
-        values = np.array(tokens, dtype=float)
+        values = np.array(tokens if not any("_" in token for token in tokens) else [], dtype=float)
         if len(values) >= 2 and np.abs(values).max() <= MAX_NUMBER:
             return values
     except ValueError:
@@ -129,13 +131,17 @@ def numbers(path, lines, first):
 
 
 def table(path, lines, first, columns, delimiter, texts=()):
-    """Rows of `columns` separated numbers, blank lines left out. (n, columns) texts: columns of other content: 0
+    """Rows of `columns` separated numbers, quoted or not, without blank lines and comments. (n, columns)
+
+    texts: columns of other content: 0
 
     Raises RecordError for a row of another length or a value that is not a finite number.
     """
     rows = []
     for number, line in enumerate(lines, first):
-        cells = [cell.strip() for cell in line.split(delimiter)]
+        if line.startswith(COMMENT):
+            continue
+        cells = [cell.strip(' \t"') for cell in line.split(delimiter)]
         while len(cells) > columns and not cells[-1]:
             cells.pop()
         if not any(cells):
@@ -198,6 +204,10 @@ def clock(text, where):
 def direction_of(name):
     """Direction from a component's name ('090', 'N-S', 'UP', ...: towards north, east, up), or None."""
     key = "".join(c for c in name.lower() if c.isascii() and c.isalnum())
-    if key.isdecimal() and len(key) <= 3 and int(key) <= 360:
-        return float(key)
+    try:
+        azimuth = float(name)
+    except ValueError:
+        azimuth = float("nan")
+    if abs(azimuth) <= 360 and key[:1].isdecimal():
+        return azimuth % 360
     return next((direction for direction, names in NAMES.items() if key in names.split()), None)

@@ -9,7 +9,7 @@ from ..recording.damage import DamageSurvey, State
 from ..recording.walls import count_apart
 from ..text.english import DRIFT_LINES, broken_of, ratio
 from . import fonts
-from .figures import drawable
+from .figures import known_letters
 from .key_times import first_shown
 from .stage import frame_before
 
@@ -64,7 +64,7 @@ class Caption:
         self.pen = Pen(size)
         self.survey = DamageSurvey(run.elements, run.joints, [])
         self.drifts = run.history.largest_drift() if run.history and run.history.samples else None
-        self.title, self.text, self.foot = self._line(drawable(run.title), TITLE, bold=True), None, None
+        self.title, self.text, self.foot = self._line(known_letters(run.title), TITLE, bold=True), None, None
 
     def on(self, image, time):
         """Draw the texts at a time [s] on an image of Pillow."""
@@ -109,7 +109,7 @@ class Strip:
         if run.motion:
             self._draw_trace()
         colours = ["N-S blue, E-W orange"] * bool(run.motion)
-        text = self.pen.fitting([drawable(origin[0]), *colours, *map(drawable, origin[1:])], small)
+        text = self.pen.fitting([known_letters(origin[0]), *colours, *map(known_letters, origin[1:])], small)
         self.pen.write(self.still, top, text, small, SOFT)
         self.still = self.still.convert("RGB")
 

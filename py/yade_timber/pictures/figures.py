@@ -66,13 +66,17 @@ def add_panel(figure, corner, size, dpi):
     return figure.add_axes([x / width, y / height, size[0] / width, size[1] / height])
 
 
-def drawable(text, most=LONGEST_TEXT):
-    """A text from data that matplotlib draws literally: one line, no mathtext, known letters, at most `most`.
+def known_letters(text, most=LONGEST_TEXT):
+    """A text from data on one line, of letters that the fonts have, at most `most`."""
+    return "".join(letter if fonts.has(letter) else REPLACEMENT for letter in cut_line(text, most))
 
-    Every name, title or message that comes from a file passes through here before it is drawn.
+
+def drawable(text, most=LONGEST_TEXT):
+    """The same for matplotlib, without mathtext.
+
+    Every name, title or message that comes from a file passes through one of these before it is drawn.
     """
-    line = "".join(letter if fonts.has(letter) else REPLACEMENT for letter in cut_line(text, most))
-    return line.replace("$", r"\$")
+    return known_letters(text, most).replace("$", r"\$")
 
 
 def heading(figure, title, subtitle=""):

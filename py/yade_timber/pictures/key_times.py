@@ -76,9 +76,11 @@ def differences(frames, frame):
 def named(frames):
     """(time [s], reason) of the times that have a name, the most important first."""
     summary = frames.summary
-    for time, reason in ((summary.collapse_time_s, "collapse"), (summary.tilt_time_s, "drift 1/10")) if summary else ():
+    for kind, reason in (("collapse", "collapse"), ("tilt", "drift 1/10")) if summary else ():
+        time = getattr(summary, f"{kind}_time_s")
         if time is not None:
-            yield time, reason
+            lot = next((event.lot for event in summary.events if event.kind == kind), None)
+            yield time, reason if lot is None else f"{lot}: {reason}"
     if frames.motion:
         yield strongest_shaking(frames), STRONGEST
     for kind in ("structure_fallen", "snow_fallen"):

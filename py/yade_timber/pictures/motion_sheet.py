@@ -4,8 +4,8 @@ import numpy as np
 from matplotlib.ticker import FuncFormatter
 
 from ..base.colors import DIRECTIONS
-from ..motion import (GAL, constant_note, displacement, jma_intensity, pga, pgv, response_spectrum, shaking_window,
-                      velocity)
+from ..motion import GAL, constant_note, displacement, pga, pgv, response_spectrum, shaking_window, velocity
+from ..motion.measures import stated_intensity
 from .figures import A4, heading, heading_height, new_figure, save, stem_and_endings
 from .style import default_style
 
@@ -49,8 +49,9 @@ def page(motion, corner, dpi):
 
 def describe(motion):
     """Source, JMA intensity and horizontal peaks."""
-    intensity = jma_intensity(motion)
-    peaks = (f"{motion.source}; JMA intensity {intensity.official:.1f}, horizontal vector {pga(motion, 'h'):.0f} gal"
+    intensity = stated_intensity(motion)
+    intensity = "none" if intensity is None else f"{intensity:.1f}"
+    peaks = (f"{motion.source}; JMA intensity {intensity}, horizontal vector {pga(motion, 'h'):.0f} gal"
              f" and {pgv(motion):.0f} cm/s")
     return "\n".join(filter(None, (peaks, constant_note(motion))))
 
@@ -84,8 +85,10 @@ def draw_curves(axis, time, values, label):
 def draw_spectra(axis, motion):
     """Pseudo-velocity of oscillators with 5 % of critical damping."""
     for key, column, name, dashes in ROWS:
+        if not motion.acceleration[:, column].any():
+            continue
         spectrum = response_spectrum(motion.acceleration[:, column], motion.dt, PERIODS)
-        axis.loglog(PERIODS, np.maximum(spectrum.psv, 1e-6), color=DIRECTIONS[key], ls=dashes, lw=1.2, label=name)
+        axis.loglog(PERIODS, spectrum.psv, color=DIRECTIONS[key], ls=dashes, lw=1.2, label=name)
     for direction in (axis.xaxis, axis.yaxis):
         direction.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_xlim(PERIODS[0], PERIODS[-1])

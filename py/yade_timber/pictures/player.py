@@ -113,6 +113,7 @@ def info(run, largest):
         "events": events(run),
         "main": main_event(run),
         "collapse": collapse_time(run.summary),
+        "until": run.summary.quantities.until_s if isinstance(run.summary, Summary) else None,
     }
 
 
@@ -169,7 +170,7 @@ def shaking(run):
     """Events of the ground motion."""
     if run.motion and run.motion.acceleration.any():
         yield Event(onset(run.motion), ShakingBegins())
-        if run.summary:
+        if run.summary and getattr(run.summary, "missed_shaking", None) is None:
             yield Event(strongest_shaking(run), StrongestShaking())
 
 

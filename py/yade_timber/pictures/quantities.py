@@ -15,6 +15,7 @@ from ..recording.quantities import BAND_TEXT, Storeys
 from ..recording.quantities import NAME as STOREYS
 from ..recording.summary import Summary
 from ..text.english import direction_name, period_text, sentence
+from ..text.lines import before
 from .figures import A4, drawable, fitting_size, heading, heading_height, new_figure
 from .style import default_style
 
@@ -27,6 +28,8 @@ STATES = {"whole": colors.BLUE, "partly": colors.AMBER, "broken": colors.ORANGE,
 """Colours of joints by their state at the end."""
 IMPACTS_CUT = 2.0
 """Largest shear in a diagram over the sustained one: beyond lie impacts of a few ms, and the fall of a house. [-]"""
+NEAR = 0.3
+"""Distance of columns whose numbers are written side by side. [m]"""
 VISIBLE_UPLIFT = 1e-4
 """Smaller uplifts have no number in the plan. [m]"""
 
@@ -68,7 +71,7 @@ def page(results, dpi):
     draw_uplift(figure.add_subplot(lower[1]), results)
     draw_modes(figure.add_subplot(rows[3, 0]), results)
     draw_energy(figure.add_subplot(rows[3, 1]), results)
-    heading(figure, f"House {results.summary.model}. Quantities", text)
+    heading(figure, f"House {results.summary.model}. Quantities{before(results.summary.quantities)}", text)
     return figure
 
 
@@ -78,6 +81,8 @@ def style(axis, title, x="", y=""):
     axis.set_xlabel(x, fontsize=7.5, labelpad=1)
     axis.set_ylabel(y, fontsize=7.5, labelpad=1)
     axis.tick_params(labelsize=7)
+    axis.yaxis.set_offset_position("right")  # the title is on the left
+    axis.yaxis.get_offset_text().set_fontsize(6)
     axis.grid(alpha=0.25)
 
 
@@ -145,9 +150,12 @@ def draw_uplift(axis, results):
     stands = np.array([row["state"] == "standing" for row in rows], bool)
     for shown, color in ((stands, colors.BLUE), (~stands, colors.GREY)):
         axis.plot(*places[shown, :2].T, "s", ms=3, color=color)
-    for x, y, uplift in places[stands & (places[:, 2] >= VISIBLE_UPLIFT)]:
+    numbered = places[stands & (places[:, 2] >= VISIBLE_UPLIFT)]
+    for x, y, uplift in numbered:
         number = f"{1000 * uplift:.{1 if uplift < 0.01 else 0}f}"
-        axis.annotate(number, (x, y), (0, 3), textcoords="offset points", fontsize=5.5, ha="center")
+        beside = [other - x for other, north, _ in numbered if 0 < abs(other - x) < NEAR and abs(north - y) < NEAR]
+        side = "center" if not beside else "right" if min(beside) > 0 else "left"
+        axis.annotate(number, (x, y), (0, 3), textcoords="offset points", fontsize=5.5, ha=side)
     axis.set_aspect("equal", anchor="W")
     axis.margins(0.1)
     style(axis, "uplift of column feet, storey 1 [mm]; grey: lost", "east [m]", "north [m]")

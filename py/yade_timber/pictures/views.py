@@ -168,8 +168,8 @@ def scale_bar(ax, box, size):
     length = 10.0 ** max(0, math.floor(math.log10((box[1] - box[0]) / 6)))
     right, up = box[1] - 0.25, box[3] - 0.35
     ax.plot([right - length, right], [up, up], color="black", linewidth=0.3 * size, solid_capstyle="butt")
-    ax.annotate(f"{length:g} m", (right - length / 2, up), (0, -0.4 * size), textcoords="offset points", fontsize=size,
-                ha="center", va="top")
+    ax.annotate(f"{length:g} m", (right, up), (0, -0.4 * size), textcoords="offset points", fontsize=size, ha="right",
+                va="top")
 
 
 def kind_entries(solids):

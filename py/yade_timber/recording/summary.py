@@ -25,7 +25,7 @@ OtherWalls = table("OtherWalls", level=str, verdict=str, peak_drift=Drifts)
 Walls = table("Walls", level=str, other=OtherWalls | None)
 PartOfRecord = table("PartOfRecord", source=str, start_s=float, duration_s=float, scale=float, pga_gal=Components)
 Record = table("Record", source=str, pga_gal=Components, scale=float, dt=float, interpolation_error=float,
-               onset_s=float | None, note=str | None, sequence=list[PartOfRecord] | None)
+               onset_s=float | None, note=str | None, sequence=list[PartOfRecord] | None, strong_end_s=optional(float))
 Columns = table("Columns", total=int, fallen=int, loose=int)
 Energy = table("Energy", input=float, kinetic=float, elastic=float, dissipated=dict[str, float], created=float | None,
                residual=float, residual_fraction=float | None, ground_motion=float, gravity_released=float)
@@ -75,8 +75,8 @@ class Summary(Values):
     def read(cls, folder):
         """Of the run in a folder. Raises RunError."""
         path = Path(folder) / NAME
-        require_regular(path,
-                        "no finished run is there: an interrupted one has no summary before it is resumed to its end")
+        require_regular(path, "no finished run is there: an interrupted one has no summary before it is resumed to its"
+                              " end, a town has those of its lots")
         try:
             return parse(path.read_text(encoding="utf-8"))
         except (OSError, ValueError) as problem:
@@ -122,10 +122,12 @@ class Summary(Values):
         return next((event.time_s for event in self.events if event.facts == StructureFallen(name)), None)
 
     @property
-    def missed_onset(self):
-        """Onset of the strong shaking of a run that ends before it [s], else None."""
+    def missed_shaking(self):
+        """(onset, end) of the strong shaking of a run that ends before it, or stands and ends in it [s]; else None."""
         onset = self.record and self.record.onset_s
-        return onset if onset and self.duration_s < onset else None
+        end = onset and (self.record.strong_end_s or onset)
+        ended = onset and self.duration_s < (onset if self.collapsed else end)
+        return (onset, end) if ended else None
 
     @property
     def partly_broken(self):

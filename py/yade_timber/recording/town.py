@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from . import frames, verdict
+from .events import SnowFallen, Tilt
 from .history import History
 from .summary import TownSummary
 
@@ -14,10 +15,16 @@ SHOWN = ("tilt", "collapse", "structure_fallen", "snow_fallen")
 """Kinds of events of a lot that are events of the town."""
 
 
-def summary(name, summaries, record):
-    """TownSummary. summaries: {name of a lot: its Summary}; record: Record of the motion that reaches the town"""
-    events = [replace(event, lot=lot) for lot, one in summaries.items() for event in one.events if event.kind in SHOWN]
-    lots = list(summaries.values())
+SIDES = {"east": (1, 0), "north": (0, 1), "west": (-1, 0), "south": (0, -1)}
+
+
+def summary(name, results, record):
+    """TownSummary. results: {name of a lot: (its Summary, (3, 3) axes of the house)}; record: Record of the motion that
+    reaches the town
+    """
+    events = [replace(event, facts=_in_town(event.facts, axes), lot=lot) for lot, (one, axes) in results.items()
+              for event in one.events if event.kind in SHOWN]
+    lots = [one for one, _ in results.values()]
     verdicts = [lot.verdict for lot in lots]
     return TownSummary(model=name, verdict=max(verdicts, key=verdict.STATES.index), verdicts=verdicts,
                        collapsed=any(lot.collapsed for lot in lots),
@@ -25,6 +32,23 @@ def summary(name, summaries, record):
                        tilt_time_s=min((lot.tilt_time_s for lot in lots if lot.tilt_time_s is not None), default=None),
                        dt=lots[0].dt, record=record, versions=lots[0].versions,
                        events=sorted(events, key=lambda event: event.time_s))
+
+
+def _in_town(facts, axes):
+    """Facts of an event in the axes of the town."""
+    if isinstance(facts, Tilt):
+        side = town_side("east" if facts.direction == "ew" else "north", axes)
+        return replace(facts, direction="ew" if side in ("east", "west") else "ns")
+    return replace(facts, side=town_side(facts.side, axes)) if isinstance(facts, SnowFallen) else facts
+
+
+def town_side(side, axes):
+    """The compass side of the town nearest to a side of a house, or to each of several, 'south+west'; other words as
+    they are.
+    """
+    def nearest(word):
+        return max(SIDES, key=lambda other: np.dot(SIDES[other], axes[:2, :2] @ SIDES[word]))
+    return "+".join(nearest(word) if word in SIDES else word for word in side.split("+"))
 
 
 def town_frames(name, lots, record):
@@ -44,7 +68,7 @@ def town_frames(name, lots, record):
         for key, values in zip(("position", "orientation", "load", "broken"), map(np.concatenate, zip(*states))):
             getattr(town, key).append(values)
     town.motion = _motion(placed)
-    town.summary = summary(name, {lot.name: lot.run.summary for lot in placed}, record)
+    town.summary = summary(name, {lot.name: (lot.run.summary, lot.axes) for lot in placed}, record)
     town.history = History(("time [s]",), np.empty((0, 1)))
     town.breaks = _breaks(placed, first_joints)
     return town
@@ -97,7 +121,8 @@ def _joints(lots, offsets):
             for key in ("a", "b")}
     return frames.Joints(
         name=[f"{lot.name}.{name}" for lot in lots for name in lot.run.joints.name],
-        **{key: [value for j in parts for value in getattr(j, key)] for key in ("kind", "storey", "side")},
+        **{key: [value for j in parts for value in getattr(j, key)] for key in ("kind", "storey")},
+        side=[town_side(side, lot.axes) for lot, j in zip(lots, parts) for side in j.side],
         **{key: np.concatenate(values).astype("i4") for key, values in ends.items()},
         **{key: np.concatenate([getattr(j, key) for j in parts])
            for key in ("anchor", "springs", "damaged", "strength")},

@@ -51,10 +51,10 @@ def record(motion, scale, dt, delay=0.0):
     RecordError."""
     parts = [PartOfRecord(source=part.source, start_s=round(part.start, 6), duration_s=round(part.duration, 6),
                           scale=scale * part.scale, pga_gal=_scaled(part.pga_gal, scale)) for part in motion.parts]
-    begin = onset(motion)
-    begin = None if begin is None else begin + delay  # None: no shaking
+    begin, end = (None if time is None else time + delay for time in (onset(motion), onset(motion, 0.95)))
     return Record(source=motion.source or motion.name, pga_gal=_scaled(motion.pga_gal, scale), scale=scale,
                   dt=motion.dt, interpolation_error=round(interpolation_error(motion, dt), 6), onset_s=begin,
+                  strong_end_s=end,
                   note=constant_note(motion, scale) or None, sequence=parts or None)
 
 

@@ -117,8 +117,8 @@ class TownRun(Stoppable):
         for lot, run in self.lots:
             self.options.say(f"{lot.name}: {sentence(run.summary)}")
         written = self._results()
-        summaries = {lot.name: run.summary for lot, run in self.lots}
-        self.options.say(sentence(recording.summary(self.town.name, summaries, self.record)))
+        results = {lot.name: (run.summary, lot.axes) for lot, run in self.lots}
+        self.options.say(sentence(recording.summary(self.town.name, results, self.record)))
         self.options.say("written: " + ", ".join(map(str, [*written, self.options.folder / "lots"])))
         faults = [f"lot {lot.name}: {run.fault}" for lot, run in self.lots if run.fault]
         if faults:

@@ -43,9 +43,13 @@ def cut_off(summary):
 
 
 def early(summary):
-    """Remark on a run that ends before the strong shaking; empty for others."""
-    onset = summary.missed_onset
-    return "" if onset is None else f"the run ends before strong shaking sets in ({onset:.1f} s)"
+    """Remark on a run that ends before or in the strong shaking; empty for others."""
+    onset, end = summary.missed_shaking or (None, None)
+    if onset is None:
+        return ""
+    if summary.duration_s < onset:
+        return f"the run ends before strong shaking sets in ({onset:.1f} s)"
+    return f"the run ends during the strong shaking ({onset:.1f} to {end:.1f} s)"
 
 
 def unconverged(summary):
@@ -268,10 +272,12 @@ def directed(drift, direction):
 
 
 def ratio(drift, below="below "):
-    """A drift in the notation of engineers: 1/85."""
+    """A drift in the notation of engineers: 1/85. One below a limit of the verdict is not rounded up to it."""
     if drift < SMALL:
         return f"{below}1/1000"
-    return f"1/{round(1 / drift)}" if drift <= 0.5 else f"{drift:.2f}"
+    number = round(1 / drift)
+    number += any(drift < limit.drift and number == round(1 / limit.drift) for limit in verdict.LIMITS)
+    return f"1/{number}" if drift <= 0.5 else f"{drift:.2f}"
 
 
 def joint_place(kind, storey, side):

@@ -78,7 +78,8 @@ def structures(summary):
         if facts.verdict == COLLAPSED:
             yield f"{structure_name(name)}は" + ("倒壊" if time is None else f" {time:.1f} 秒に倒壊")
         elif facts.verdict != UNDAMAGED:
-            yield f"{structure_name(name)}は{OUTCOMES[facts.verdict]}（最大層間変形角 {below(facts.peak_drift)}）"
+            lean = "（最後に傾いている）" if facts.leans else ""
+            yield f"{structure_name(name)}は{OUTCOMES[facts.verdict]}{lean}（最大層間変形角 {below(facts.peak_drift)}）"
 
 
 def joints(summary):
@@ -102,8 +103,11 @@ def snow(summary):
 
 
 def early(summary):
-    onset = summary.missed_onset
-    return "" if onset is None else f"強い揺れ（{onset:.1f} 秒）の前で計算を終了"
+    onset, end = summary.missed_shaking or (None, None)
+    if onset is None:
+        return ""
+    return (f"強い揺れ（{onset:.1f} 秒）の前で計算を終了" if summary.duration_s < onset
+            else f"強い揺れ（{onset:.1f}～{end:.1f} 秒）の途中で計算を終了")
 
 
 def ensemble(summary):
@@ -144,6 +148,14 @@ def _damage(facts):
     return "、".join([*(text.format(number) for number, text in counts if number), f"最大層間変形角 {below(facts.peak_drift)}"])
 
 
+def _roof(facts):
+    """Structure, other than the main one, and side of a roof, as far as they are known."""
+    if facts.structure:
+        yield structure_name(facts.structure)
+    if facts.side in SIDES:
+        yield SIDES[facts.side]
+
+
 def level(facts):
     limit = passed(facts.drift)
     return f"層間変形角が {ratio(limit.drift)} を超える（{LEVELS[limit.name]}）"
@@ -156,7 +168,7 @@ PHRASES = {
     "own_weight": own_weight,
     "structure_fallen": lambda facts: f"{structure_name(facts.structure)}が倒れた",
     "columns_lost": lambda facts: f"柱 {facts.total} 本のうち {facts.number} 本が倒れるか外れた",
-    "snow_fallen": lambda facts: f"{SIDES[facts.side]}の屋根の雪が落ちる" if facts.side in SIDES else "屋根の雪が落ちる",
+    "snow_fallen": lambda facts: "".join(f"{place}の" for place in _roof(facts)) + "屋根の雪が落ちる",
     "shaking_begins": lambda facts: "揺れの始まり",
     "strongest_shaking": lambda facts: "最大の揺れ",
     "level": level,

@@ -49,7 +49,12 @@ def write(found):
         "versions": one["versions"],
         "dt": one["dt"],
         "motion": one["record"],
-        "runs": {name: {key: value for key, value in run.items() if key not in LEFT_OUT} for name, run in found.items()},
+        "runs": {
+            name: {key: value
+                   for key, value in run.items()
+                   if key not in LEFT_OUT}
+            for name, run in found.items()
+        },
     }
     GOLDEN.write_text(json.dumps(content, indent=1) + "\n")
 

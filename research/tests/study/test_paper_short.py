@@ -58,5 +58,6 @@ def test_house_a_collapses_under_snow_only_without_supported_column_ends(support
 
 
 def test_house_a_tilts_and_collapses_in_strong_shaking():
-    monitor = monitored("A", motion=trim(default_motion(), START, END), duration=END - START, until=lambda m: m.collapseTime >= 0)
+    monitor = monitored("A", motion=trim(default_motion(), START, END), duration=END - START,
+                        until=lambda m: m.collapseTime >= 0)
     assert monitor.collapseTime > monitor.tiltTime > 0  # in a direction that follows from the record

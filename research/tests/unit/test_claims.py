@@ -15,17 +15,18 @@ from yade_timber.run.options import scripted
 from yade_timber.study.driver import Task
 
 
-def summary(model, snow=False, sway_ns=0.001, sway_ew=0.001, lean=0.0, springs=0, collapse=None, leans=None, fallen=0, west=(0, 0), direction=None):
+def summary(model, snow=False, sway_ns=0.001, sway_ew=0.001, lean=0.0, springs=0, collapse=None, leans=None, fallen=0,
+            west=(0, 0), direction=None):
     """A Summary with the entries that claims use."""
     drift = {"ns": sway_ns, "ew": sway_ew}
     place = {"1": {"west": {"total": sum(west), "column_beam": west[0], "brace_beam": west[1]}}}
     sides = dict.fromkeys(("north", "south", "east", "west"), 0)
-    return sample_summary(
-        model=model, snow=snow, record={"onset_s": 18.5}, peak_drift={"storey1": drift, "storey2": drift},
-        residual_drift={"storey1": {"ns": 0.0, "ew": lean}, "storey2": {"ns": lean, "ew": 0.0}},
-        broken={"springs": springs, "total": springs // 4, "by_place": place, "by_side": sides},
-        columns={"total": 90, "fallen": fallen}, collapsed=collapse is not None, collapse_time_s=collapse, leans_from_s=leans,
-        tilt_time_s=leans and leans + 1, tilt_direction=direction, wall_s=1.0)
+    return sample_summary(model=model, snow=snow, record={"onset_s": 18.5}, peak_drift={
+        "storey1": drift, "storey2": drift
+    }, residual_drift={"storey1": {"ns": 0.0, "ew": lean}, "storey2": {"ns": lean, "ew": 0.0}}, broken={
+        "springs": springs, "total": springs // 4, "by_place": place, "by_side": sides
+    }, columns={"total": 90, "fallen": fallen}, collapsed=collapse is not None, collapse_time_s=collapse,
+                          leans_from_s=leans, tilt_time_s=leans and leans + 1, tilt_direction=direction, wall_s=1.0)
 
 
 def paper_results():
@@ -80,8 +81,10 @@ WRONG = [  # claim, run, change of its summary that violates one condition of th
     ("S1", "modelA_snow", {"leans_from_s": 1.1}),
     ("S1", "modelA_snow", {"collapse_time_s": 5.9}),
     ("S1", "modelA_snow", {"collapse_time_s": 18.1}),
-    *((claim, run, change) for claim, run in (("S2", "modelB_snow"), ("S3", "modelC_snow"))
-      for change in ({"peak_drift": drift(0.009, 0.0)}, {"peak_drift": drift(0.0, 0.009)}, broken(springs=1), COLLAPSED)),
+    *((claim, run, change)
+      for claim, run in (("S2", "modelB_snow"), ("S3", "modelC_snow"))
+      for change in ({"peak_drift": drift(0.009, 0.0)}, {"peak_drift": drift(0.0, 0.009)}, broken(springs=1),
+                     COLLAPSED)),
     ("D1", "modelB1_quake", COLLAPSED),
     ("D1", "modelB1_quake", {"peak_drift": drift(0.09, 0.08)}),
     ("D1", "modelB1_quake", {"peak_drift": drift(0.02, 0.033)}),
@@ -148,8 +151,12 @@ def test_row_of_a_run():
         broken={"total": 3, "column_beam": 2, "brace_beam": 1, "by_storey": {"1": 5, "2": 6}, "by_side": sides},
         columns={"fallen": 12, "loose": 13}, wall_s=14.4)
     row = dict(zip(report.RUN_COLUMNS, report.run_row("modelA_quake", run), strict=True))
-    assert list(row.values()) == ["modelA_quake", "collapsed", "18.0 s", "19.0 s", "24.0 s", "1/11", "1/12", "1/13", "<1/1000", "1/20", "1/100", 9, 3, 2, 1, 5, 6, 7, 8, 10, 11, 12, 13, 14]
-    assert (row["peak drift 1 N-S"], row["2 E-W"], row["residual 1"], row["storey 2"], row["south"], row["west"], row["loose"]) == ("1/11", "<1/1000", "1/20", 6, 8, 11, 13)
+    assert list(row.values()) == [
+        "modelA_quake", "collapsed", "18.0 s", "19.0 s", "24.0 s", "1/11", "1/12", "1/13", "<1/1000", "1/20", "1/100",
+        9, 3, 2, 1, 5, 6, 7, 8, 10, 11, 12, 13, 14
+    ]
+    assert (row["peak drift 1 N-S"], row["2 E-W"], row["residual 1"], row["storey 2"], row["south"], row["west"],
+            row["loose"]) == ("1/11", "<1/1000", "1/20", 6, 8, 11, 13)
 
 
 def test_missing_run():
@@ -178,7 +185,8 @@ def test_tables(tmp_path):
 def test_number_of_motions_in_which_a_claim_holds():
     paper, fewer = paper_results(), {name: run for name, run in paper_results().items() if name != "modelB_quake"}
     wrong = paper | {"modelA_quake": summary("A", sway_ns=0.05)}
-    _, rows = comparison.claims_table({"one": claims.judge(paper), "two": claims.judge(wrong), "three": claims.judge(fewer)})
+    _, rows = comparison.claims_table(
+        {"one": claims.judge(paper), "two": claims.judge(wrong), "three": claims.judge(fewer)})
     counts = {name.split(":")[0]: cells for name, *cells in rows}
     assert counts["E1"] == ["2 of 3", "x", "-", "x"] and counts["E2"] == ["2 of 2", "x", "x", ""]
     assert all(counts[name][0] == "3 of 3" for name in claims.CLAIMS if name not in ("E1", "E2"))
@@ -195,17 +203,24 @@ def test_robustness_study(tmp_path):
     cases = study["all_cases"]([0], ["records/KOBE"])
     tasks = {case: study["tasks_of"](case, options, tmp_path) for case, (_, options) in cases.items()}
     assert {case: len(some) for case, some in tasks.items()} == {"shipped": 14, "seed-0": 11, "KOBE": 11}
-    assert tasks["KOBE"]["modelB1_snow"] == Task("modelB1_snow", tmp_path / "KOBE" / "modelB1_snow", scripted("modelB1_snow", "B1", True, True, record="records/KOBE"))
+    assert tasks["KOBE"]["modelB1_snow"] == Task("modelB1_snow", tmp_path / "KOBE" / "modelB1_snow",
+                                                 scripted("modelB1_snow", "B1", True, True, record="records/KOBE"))
     assert "modelA_snow" in tasks["shipped"] and "modelA_snow" not in tasks["KOBE"]
-    text = comparison.write({case: about for case, (about, _) in cases.items()}, dict.fromkeys(cases, paper_results()), tmp_path)
-    assert text == (tmp_path / "robustness.md").read_text() and "| E1" in text and "| KOBE | recorded motion | falls N-S" in text
-    assert "E1: " in (tmp_path / "motions.csv").read_text() and "KOBE,recorded motion" in (tmp_path / "sways.csv").read_text()
+    text = comparison.write({case: about
+                             for case, (about, _) in cases.items()}, dict.fromkeys(cases, paper_results()), tmp_path)
+    assert text == (tmp_path / "robustness.md").read_text()
+    assert "| E1" in text
+    assert "| KOBE | recorded motion | falls N-S" in text
+    assert "E1: " in (tmp_path / "motions.csv").read_text()
+    assert "KOBE,recorded motion" in (tmp_path / "sways.csv").read_text()
     assert (tmp_path / "seed-0" / "claims.md").is_file()
 
 
 def test_only_runs_with_an_earthquake_get_motion_options():
     script = runpy.run_path(str(Path(__file__).resolve().parents[2] / "paper_table.py"))
-    values = script["run_options"](argparse.Namespace(record=None, seed="3", scale="0.5", start=None, end=None, dt="1e-4", duration=None))
+    values = script["run_options"](argparse.Namespace(record=None, seed="3", scale="0.5", start=None, end=None,
+                                                      dt="1e-4", duration=None))
     assert values == {"dt": 1e-4, "seed": 3, "scale": 0.5}
-    assert script["run_of"]("modelA_quake", "A", True, False, values).words() == ["--seed=3", "--scale=0.5", "--dt=0.0001"]
+    assert script["run_of"]("modelA_quake", "A", True, False,
+                            values).words() == ["--seed=3", "--scale=0.5", "--dt=0.0001"]
     assert script["run_of"]("modelA_snow", "A", False, True, values).words() == ["--dt=0.0001"]

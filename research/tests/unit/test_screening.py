@@ -61,10 +61,12 @@ def test_every_factor_changes_the_houses_that_it_should(tmp_path, house):
 
 
 def test_connections(tmp_path):
-    first, second = built(tmp_path, "B1"), built(tmp_path, "B1", **dict.fromkeys(("brace_sides", "reading", "fittings", "beams", "floors"), True))
+    first, second = built(tmp_path, "B1"), built(
+        tmp_path, "B1", **dict.fromkeys(("brace_sides", "reading", "fittings", "beams", "floors"), True))
     kinds = [set(model.counts()["joints_by_kind"]) for model in (first, second)]
     assert kinds[1] - kinds[0] == {"brace_column", "beam_beam"}
-    assert values(first, "column_beam") == (58800, 5880, "spring") and values(second, "column_beam") == (2 * 58800, 2 * 5880, "joint")
+    assert values(first, "column_beam") == (58800, 5880, "spring")
+    assert values(second, "column_beam") == (2 * 58800, 2 * 5880, "joint")
     assert values(first, "floor_beam") == values(first, "roof_beam") == (1e7, math.inf, "joint")
     assert values(second, "floor_beam") == values(second, "roof_beam") == (58800, 5880, "joint")
 
@@ -72,7 +74,10 @@ def test_connections(tmp_path):
 def test_columns_on_the_foundation(tmp_path):
     first, second = built(tmp_path, "C"), built(tmp_path, "C", supports=True)
     assert first.of_kind("sill") and not second.of_kind("sill")
-    feet = [{model.element(joint.b).kind for joint in model.joints if joint.end == "bottom" and joint.storey == 1} for model in (first, second)]
+    feet = [{model.element(joint.b).kind
+             for joint in model.joints
+             if joint.end == "bottom" and joint.storey == 1}
+            for model in (first, second)]
     assert feet == [{"sill"}, {"foundation"}]
     assert first.counts()["joints_by_kind"] == second.counts()["joints_by_kind"]
 
@@ -83,16 +88,22 @@ def test_two_factors_change_friction(tmp_path):
 
 
 def test_damage(tmp_path):
-    first, second = built(tmp_path, "B1", brace_sides=True), built(tmp_path, "B1", brace_sides=True, damaged_end=True, plate=True)
+    first, second = built(tmp_path, "B1",
+                          brace_sides=True), built(tmp_path, "B1", brace_sides=True, damaged_end=True, plate=True)
     assert first.counts()["broken_by_kind"] == {"column_beam": 8, "brace_beam": 2}
     assert second.counts()["broken_by_kind"] == {"column_beam": 8, "brace_beam": 2, "brace_column": 2}
     assert [{joint.end for joint in model.joints if joint.broken} for model in (first, second)] == [{"bottom"}, {"top"}]
 
 
 def test_braces_of_c_lean_the_other_way(tmp_path):
-    names = [{element.name for element in built(tmp_path, "C", braces_c=turned).of_kind("brace")} for turned in (False, True)]
+    names = [{element.name
+              for element in built(tmp_path, "C", braces_c=turned).of_kind("brace")}
+             for turned in (False, True)]
     assert "main.brace1.NS.y0.0-1" not in names[0] and len(names[0]) == len(names[1]) == 44
-    turned = {f"{head}.{'-'.join(reversed(bay.split('-')))}" for head, bay in (name.rsplit(".", 1) for name in names[0])}
+    turned = {
+        f"{head}.{'-'.join(reversed(bay.split('-')))}"
+        for head, bay in (name.rsplit(".", 1) for name in names[0])
+    }
     assert turned == names[1]
 
 
@@ -102,8 +113,11 @@ def test_braces_of_c_lean_the_other_way(tmp_path):
 def test_plan_and_table(tmp_path):
     """Cell by cell; runs without an earthquake once a cell; every row is a run that stops at collapse."""
     planned = cells.plan(MOTIONS, 4e-4)
-    assert [entry.cell for entry in planned] == sorted(entry.cell for entry in planned) and len(planned) == 32 * (11 * 2 + 3)
-    assert {entry.run for entry in planned} == set(RUNS) and {entry.motion for entry in planned} == {"seed3", "seed0", None}
+    assert [entry.cell for entry in planned] == sorted(entry.cell for entry in planned)
+    assert len(planned) == 32 * (11 * 2 + 3)
+    assert {entry.run
+            for entry in planned} == set(RUNS) and {entry.motion
+                                                    for entry in planned} == {"seed3", "seed0", None}
     some = [entry for entry in planned if entry.cell == 5]
     rows = read_table(cells.write_inputs(some, tmp_path))
     options = {(entry.run, entry.motion): task_of(row, tmp_path).options for entry, row in zip(some, rows, strict=True)}
@@ -130,12 +144,14 @@ def test_unchanged_houses_are_not_written_again(tmp_path):
 def summary(ns=0.02, ew=0.01, lean=0.01, springs=0, collapsed=False, west=(0, 0), lost=0):
     """A Summary with the entries that responses use."""
     places = {side: {"total": sum(west), "column_beam": west[0], "brace_beam": west[1]} for side in ("north", "west")}
-    times = {"collapse_time_s": 9.0, "leans_from_s": 5.0, "tilt_time_s": 6.0, "tilt_direction": "ns"} if collapsed else {}
-    return sample_summary(
-        record={"onset_s": 4.0}, peak_drift={"storey1": {"ns": ns, "ew": ew}, "storey2": {"ns": 0.0, "ew": None}},
-        residual_drift={"storey1": {"ns": 0.0, "ew": lean}, "storey2": {"ns": lean / 2, "ew": 0.0}}, joints={"total": 100},
-        broken={"springs": springs, "total": springs // 4, "by_place": {"1": places}}, columns={"total": 90, "fallen": lost},
-        collapsed=collapsed, **times)
+    times = {"collapse_time_s": 9.0, "leans_from_s": 5.0, "tilt_time_s": 6.0, "tilt_direction": "ns"
+             } if collapsed else {}
+    return sample_summary(record={"onset_s": 4.0}, peak_drift={
+        "storey1": {"ns": ns, "ew": ew}, "storey2": {"ns": 0.0, "ew": None}
+    }, residual_drift={"storey1": {"ns": 0.0, "ew": lean}, "storey2": {"ns": lean / 2, "ew": 0.0}}, joints={
+        "total": 100
+    }, broken={"springs": springs, "total": springs // 4, "by_place": {"1": places}},
+                          columns={"total": 90, "fallen": lost}, collapsed=collapsed, **times)
 
 
 def response(name, **runs):
@@ -151,9 +167,11 @@ def test_responses():
     assert response("across_B1", B1_quake=summary(ns=0.01, ew=0.1)) == pytest.approx(1)
     assert response("across_B2", B2_quake=summary(ns=0.01, ew=0.1)) == pytest.approx(-1)
     assert response("C1_over_B1", C1_quake=summary(ns=0.02), B1_quake=summary(ns=0.2)) == pytest.approx(-1)
-    assert response("column_beam_west_B1", B1_quake=summary(west=(3, 1))) == 3 and response("brace_beam_north_B2", B2_quake=summary(west=(3, 1))) == 1
+    assert response("column_beam_west_B1", B1_quake=summary(west=(3, 1))) == 3
+    assert response("brace_beam_north_B2", B2_quake=summary(west=(3, 1))) == 1
     assert response("snow_damage_C1", C1_snow=summary(springs=99), C1_quake=summary(springs=0)) == pytest.approx(2)
-    assert response("snow_damage_C1", C1_snow=wreck, C1_quake=summary(springs=400)) == 0, "a collapse counts as broken in all springs"
+    assert response("snow_damage_C1", C1_snow=wreck,
+                    C1_quake=summary(springs=400)) == 0, "a collapse counts as broken in all springs"
     assert response("snow_lean_B2", B2_snow=summary(lean=0.1), B2_quake=summary(lean=0.001)) == pytest.approx(2)
     assert response("snow_lean2_C2", C2_snow=summary(lean=0.2), C2_quake=summary(lean=0.02)) == pytest.approx(1)
     assert response("snow_columns_B1", B1_snow=summary(lost=5), B1_quake=summary(lost=2)) == 3
@@ -171,9 +189,14 @@ def test_collect():
     """Missing runs become NaN; cells and motions without results are left out; runs without an earthquake count under
     every motion.
     """
-    planned = [entry for entry in cells.plan([*MOTIONS, cells.synthetic(9, 15.0, 29.0)], 4e-4) if entry.cell in (2, 3, 4)]
+    planned = [
+        entry for entry in cells.plan([*MOTIONS, cells.synthetic(9, 15.0, 29.0)], 4e-4) if entry.cell in (2, 3, 4)
+    ]
     missing = {(3, "modelB_quake", "seed0")}
-    known = [entry.cell < 4 and entry.motion != "seed9" and (entry.cell, entry.run, entry.motion) not in missing for entry in planned]
+    known = [
+        entry.cell < 4 and entry.motion != "seed9" and (entry.cell, entry.run, entry.motion) not in missing
+        for entry in planned
+    ]
     results = collect(planned, [summary() if is_known else None for is_known in known])
     assert results.cells == [2, 3] and results.motions == ["seed3", "seed0"]
     assert np.isnan(results.values["falls_B"]).tolist() == [[False, False], [False, True]]
@@ -190,7 +213,8 @@ PAIR, PAIR_EFFECT = (2, 7), 0.4
 
 def synthetic(motions=(0.0,)):
     """(motions, 32) a response with these effects, and a shift for each motion."""
-    response = 1 + sum(LEVELS[:, k] * effect / 2 for k, effect in MAINS.items()) + LEVELS[:, PAIR[0]] * LEVELS[:, PAIR[1]] * PAIR_EFFECT / 2
+    response = 1 + sum(LEVELS[:, k] * effect / 2
+                       for k, effect in MAINS.items()) + LEVELS[:, PAIR[0]] * LEVELS[:, PAIR[1]] * PAIR_EFFECT / 2
     return np.array([response + shift for shift in motions])
 
 
@@ -207,10 +231,15 @@ def test_effects_are_recovered():
     result = found(synthetic((0.0, 0.5, -0.1)))
     assert mains(result) == pytest.approx({k: MAINS.get(k, 0.0) for k in range(COUNT)}, abs=1e-12)
     strings = {effect.factors: effect.value for effect in result if effect.kind == INTERACTION}
-    assert {pairs: value for pairs, value in strings.items() if abs(value) > 1e-12} == {next(pairs for pairs in strings if PAIR in pairs): pytest.approx(PAIR_EFFECT)}
+    assert {pairs: value
+            for pairs, value in strings.items()
+            if abs(value) > 1e-12} == {next(pairs for pairs in strings if PAIR in pairs): pytest.approx(PAIR_EFFECT)}
     assert len(result) == 31 and all(abs(effect.value) < 1e-12 for effect in result if effect.kind == EMPTY)
     assert all(effect.error < 1e-12 for effect in result), "a shift of all cells is no effect"
-    assert {effect.word for effect in result if effect.stands_out} == {design.words(COUNT)[k] for k in MAINS} | {design.times(*(design.words(COUNT)[k] for k in PAIR))}
+    assert {effect.word
+            for effect in result
+            if effect.stands_out} == {design.words(COUNT)[k]
+                                      for k in MAINS} | {design.times(*(design.words(COUNT)[k] for k in PAIR))}
 
 
 def test_missing_cells():
@@ -224,7 +253,8 @@ def test_missing_cells():
     half = mains(found(synthetic()[:, :16], range(16)))
     basic = design.runs()[:16]
     alias = {k: PAIR_EFFECT * LEVELS[:16, k] @ (LEVELS[:16, PAIR[0]] * LEVELS[:16, PAIR[1]]) / 16 for k in range(COUNT)}
-    assert half == pytest.approx({k: MAINS.get(k, 0.0) + alias[k] for k in range(COUNT)}, abs=1e-12) and len(basic) == 16
+    assert half == pytest.approx({k: MAINS.get(k, 0.0) + alias[k] for k in range(COUNT)}, abs=1e-12)
+    assert len(basic) == 16
     assert found(synthetic()[:, :12], range(12)) == [] and found(synthetic()[:, :0], []) == []
 
 
@@ -256,7 +286,9 @@ def test_an_effect_within_chance_does_not_stand_out():
 def results():
     random = np.random.default_rng(1)
     shape = synthetic((0.0, 0.1, -0.1))
-    return Results(list(range(32)), ["seed3", "seed0", "KOBE"], {name: shape + random.normal(0, 0.01, shape.shape) for name in RESPONSES})
+    return Results(list(range(32)), ["seed3", "seed0", "KOBE"],
+                   {name: shape + random.normal(0, 0.01, shape.shape)
+                    for name in RESPONSES})
 
 
 def test_report(results, tmp_path):
@@ -265,9 +297,11 @@ def test_report(results, tmp_path):
     header, *rows = (tmp_path / "screening.csv").read_text().splitlines()
     assert header.split(",")[:3] == ["cell", "motions", NAMES[0]] and len(rows) == 32 and rows[0].startswith("c00,3,")
     text = (tmp_path / "screening.md").read_text()
-    assert "32 of 32 cells under 3 motions: seed3, seed0, KOBE." in text and "not complete" not in text and "of both kinds" in text
+    assert "32 of 32 cells under 3 motions: seed3, seed0, KOBE." in text and "of both kinds" in text
+    assert "not complete" not in text
     line = next(line for line in text.splitlines() if line.startswith("| C / B: largest drift |") and " x " in line)
-    assert line.split("|")[2].strip().startswith("**x 6.") and not line.split("|")[3].strip().startswith("**")  # 10**0.8 = 6.31
+    assert line.split("|")[2].strip().startswith("**x 6.") and not line.split("|")[3].strip().startswith(
+        "**")  # 10**0.8 = 6.31
     aliases = (tmp_path / "effects.csv").read_text()
     assert f"{NAMES[2]} x {NAMES[7]}" in aliases and aliases.count("no factor (bce)") == len(RESPONSES)
 
@@ -280,7 +314,8 @@ def test_report_of_half_a_design(results, tmp_path):
     report.write(half, tmp_path)
     text = (tmp_path / "screening.md").read_text()
     line = next(line for line in text.splitlines() if line.startswith("| C / B: largest drift |") and " x " in line)
-    assert line.endswith("| – |") and "of both kinds" not in text and "16 of 32 cells" in text and "root mean" not in text
+    assert line.endswith(
+        "| – |") and "of both kinds" not in text and "16 of 32 cells" in text and "root mean" not in text
     tested = COUNT * len(RESPONSES)
     assert f"of the {tested} effects tested" in text and f"some {0.0455 * tested:.0f} there" in text
     rows = (tmp_path / "effects.csv").read_text().splitlines()[1:]
@@ -313,6 +348,9 @@ def test_picture(results, tmp_path):
 
 def test_text_of_values():
     effect = Effect(MAIN, "a", (0,), 0.59, 0.12, math.nan)
-    assert [report.effect_text(kind, effect) for kind in (LOG, SHARE, NUMBER)] == ["**x 3.89 (1.32)**", "**+59 pp (12)**", "**+0.59 (0.12)**"]
+    assert [report.effect_text(kind, effect)
+            for kind in (LOG, SHARE, NUMBER)] == ["**x 3.89 (1.32)**", "**+59 pp (12)**", "**+0.59 (0.12)**"]
     assert [report.value_text("drift_A", value) for value in (0.0, -1.0, -0.3)] == ["falls", "1/10", "0.50"]
-    assert report.value_text("C_over_B", math.log10(2)) == "2" and report.value_text("falls_A", 0.25) == "25 %" and report.value_text("claims", math.nan) == ""
+    assert report.value_text("C_over_B", math.log10(2)) == "2"
+    assert report.value_text("falls_A", 0.25) == "25 %"
+    assert report.value_text("claims", math.nan) == ""

@@ -14,8 +14,8 @@ from timber_research import SCRIPTS, two_ensembles
 def summary(verdict="unsafe", drift=0.1, falls=None):
     """What the tests read of a run with a largest drift [-]; falls: collapse time [s]"""
     drifts = {"storey1": {"ns": drift, "ew": drift / 2}, "storey2": {"ns": None, "ew": None}}
-    return sample_summary(
-        verdict=verdict, collapsed=falls is not None, collapse_time_s=falls, peak_drift=drifts, residual_drift=drifts, broken={"springs": 3})
+    return sample_summary(verdict=verdict, collapsed=falls is not None, collapse_time_s=falls, peak_drift=drifts,
+                          residual_drift=drifts, broken={"springs": 3})
 
 
 def ensembles(shift=1.0, spread=0.1, falls=(4, 4)):
@@ -24,7 +24,10 @@ def ensembles(shift=1.0, spread=0.1, falls=(4, 4)):
     made = []
     for factor, fallen in zip((1.0, shift), falls):
         drifts = 0.05 * factor * np.exp(spread * random.standard_normal(16))
-        made.append([summary("collapsed", 1.0, 9.0 + 0.1 * k) if k < fallen else summary(drift=float(d)) for k, d in enumerate(drifts)])
+        made.append([
+            summary("collapsed", 1.0, 9.0 + 0.1 * k) if k < fallen else summary(drift=float(d))
+            for k, d in enumerate(drifts)
+        ])
     return made
 
 
@@ -59,7 +62,8 @@ def test_equal_distributions_agree_and_others_differ():
     same = two_ensembles.rows(two_ensembles.compare("A", *ensembles()))
     assert {row[-1] for row in same} == {"no difference shown", "no test"}
     found = dict(((row[1], row[6]), row[-1]) for row in two_ensembles.rows(two_ensembles.compare("A", *ensembles(1.5))))
-    assert found["largest drift [-]", "Mann-Whitney"] == "differ" and found["collapsed", "Fisher"] == "no difference shown"
+    assert found["largest drift [-]", "Mann-Whitney"] == "differ"
+    assert found["collapsed", "Fisher"] == "no difference shown"
     assert found["largest drift [-]", "Brown-Forsythe"] == "no difference shown"
     fallen = by_test(two_ensembles.compare("A", *ensembles(falls=(1, 15))), "collapsed")["Fisher"]
     assert fallen.p < 1e-4 and (fallen.first, fallen.second) == ("1 of 16", "15 of 16")
@@ -78,7 +82,7 @@ def test_few_or_equal_values_have_no_test():
 
 
 def test_the_study_plans_runs_at_both_steps(tmp_path):
-    """Each run of the study is the command of a run script with its step, its disturbance and its part of the motion."""
+    """Runs of the study are commands of a run script, each with its step, disturbance and part of the motion."""
     study = runpy.run_path(str(SCRIPTS.parent / "research" / "ensemble_steps.py"))
     options = SimpleNamespace(runs=2, start=15.0, end=29.0, dt=1e-4, cases="modelC2_snow", out=tmp_path)
     planned = study["plan"](options)
