@@ -74,9 +74,8 @@ public:
 			"springs and dashpots. Steps that need more are counted by unconverged. 0 gives the paper's "
 			"explicit springs and dashpots, stable only for very small steps. [-]"))
 		((Real, tolerance, 1e-3, Attr::triggerPostLoad, "The sweeps of an island end when no pair changes its "
-			"impulses by more than this share of the island's root mean square, each over the root of the "
-			"pair's equivalent mass; islands at rest are solved further, to the size of their own changes. "
-			"[-]"))
+			"impulses by more than this share of their root mean square, all divided by the square root of "
+			"the pair's equivalent mass; at rest the first sweep's changes replace the impulses. [-]"))
 		((long, sweepsDone, 0, , "Sum over the steps of the largest number of sweeps of an island. [-]"))
 		((int, sweepsMax, 0, , "Largest number of sweeps of a step. [-]"))
 		((long, unconverged, 0, , "Number of steps that ended at the limit of the sweeps while impulses still "
@@ -90,8 +89,8 @@ public:
 		((Real, released, 0, , "Elastic energy released with loaded points that ceased to exist, minus the "
 			"energy given to new points. [J]"))
 		((Real, placed, 0, , "Energy that normal springs had because bodies were placed in contact. [J]"))
-		((Real, created, 0, , "Energy that contact points and joints had returned beyond what they had when "
-			"they ceased to exist. [J]"))
+		((Real, created, 0, , "Energy that contact points and joints returned beyond their stored energy, "
+			"counted when they cease to exist. [J]"))
 		((Real, imposedWork, 0, , "Work that fixed bodies have done on others by moving. [J]"))
 		((Real, newmark, 0, , "Energy of Newmark's term of stiff joints. [J]"))
 		((Real, elasticNormal, 0, , "Energy of the normal springs in the middle between the last placement and "

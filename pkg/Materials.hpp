@@ -44,7 +44,7 @@ public:
 	void postLoad(SnowMat&) { validate(); }
 	void validate() const;
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR(SnowMat, ElementMat, "Snow as clumps in linear contact (paper, section 3.1 "
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR(SnowMat, ElementMat, "Snow blocks with linear contact (paper, section 3.1 "
 		"(2)).",
 		((Real, stiffnessPerMass, 3.948e4, Attr::triggerPostLoad, "Contact stiffness, normal and tangential, "
 			"per kilogram of the snow element. [N/m/kg] (paper, Table 1)")),

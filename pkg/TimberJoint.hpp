@@ -112,7 +112,7 @@ public:
 			"the strength, slips in cycles and loses its strength between softeningStretch and "
 			"ultimateStretch, or follows envelope. [-]"))
 		((Real, frictionShare, 0, Attr::triggerPostLoad, "Law slip: share of stiffness and strength that is "
-			"elastic and perfectly plastic; the rest slips. [-]"))
+			"elastic-perfectly plastic; the rest slips. [-]"))
 		((Real, softeningStretch, std::numeric_limits<Real>::infinity(), Attr::triggerPostLoad, "Law slip: "
 			"stretch of a spring beyond which its strength falls. [m]"))
 		((Real, ultimateStretch, std::numeric_limits<Real>::infinity(), Attr::triggerPostLoad, "Law slip: "

@@ -12,7 +12,7 @@
 /// The damping matrix D = 2 zeta Z omega Z^T gives each mode the damping ratio zeta, rotations of a slender member
 /// about its end included.
 /// (Dashpots at the points of the springs, C = 2 zeta sqrt(m K), would damp these rotations some thirty times less.)
-/// About the centroid of the springs' ends, forces do not rotate and torques do not move: K is block diagonal.
+/// About the centroid of the springs' ends, translation and rotation are uncoupled: K is block diagonal.
 ///
 /// Impulse of a step h: P = -h D (w + w') / 2, w before and w' after the step: second order, stable at any zeta h, and
 /// the dissipated energy h (w + w')^T D (w + w') / 4 is never negative. Newmark's term adds -beta h2 K (w' - w), as a

@@ -55,7 +55,7 @@ struct ContactPoint {
 	double overlap; ///< > 0 [m]
 };
 
-/// Contact patterns that the paper leaves open.
+/// Optional kinds of contact.
 struct Patterns {
 	bool vertexEdge = false; ///< also vertex-edge and vertex-vertex contacts, which the paper ignores
 	bool flushSupports = true; ///< a vertex exactly above the border of a face is supported by the face

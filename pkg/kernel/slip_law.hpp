@@ -10,7 +10,7 @@
 ///     y(R) = B(R) / k          elastic limit of both parts [m]
 ///     s(R) = R - y(R)          slack of the slip part [m], which does not fall
 ///
-/// Friction part (share phi): elastic and perfectly plastic with the elastic stretch e = d - p, |e| <= y. Beyond y, p
+/// Friction part (share phi): elastic-perfectly plastic with the elastic stretch e = d - p, |e| <= y. Beyond y, p
 /// moves along e (radial return). It gives parallelogram loops, which dissipate energy in every cycle.
 /// Slip part (share 1 - phi): acts along d with the elastic stretch x = max(0, r - s), a nail in a hole that has
 /// widened to s. It has no force within the slack (pinching) and returns on the same line to the backbone. At constant
@@ -75,7 +75,7 @@ public:
 	/// points: behind the origin; their stretches ascend, the last one has no force.
 	SlipLaw(double stiffness, double frictionShare, const std::vector<BackbonePoint>& points);
 
-	/// What points must be for this stiffness and are not; null if they are a backbone.
+	/// Condition on a backbone that the points violate for this stiffness; null if none.
 	static const char* unmetBy(double stiffness, const std::vector<BackbonePoint>& points);
 	bool isValid() const { return knots.size() > 1 && stiffness > 0 && frictionShare >= 0 && frictionShare <= 1; }
 	double ultimateStretch() const { return knots.back().stretch; } ///< d_u: the spring breaks [m]

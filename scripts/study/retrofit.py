@@ -6,7 +6,7 @@ cleared.
     scripts/study/retrofit.py HOUSE [--group wall] [--motions N | --records FOLDER] [--pga GAL | --intensity I | --scale
     X] [--snow 1] [-j 2] [--pictures 2]
 
-Each measure is compared with the house as it is under the same motions. The first motions select three measures, the
+Each measure is compared with the original house under the same motions. The first motions select three measures, the
 others test them (paired exact test of the collapses or of the drifts, Holm's correction). The motions are scaled so
 that about half of them bring the house down, unless the options give their strength. Writes index.html (overview with
 links to the runs) and retrofit.csv. All rows are checked before the first run. Stop it at any time: the same command

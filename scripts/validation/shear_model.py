@@ -5,7 +5,7 @@
     V_i = shears of walls and column ends + rocking - W_i g_i    W_i weight above the storey (P-delta) [N]
 
 * Walls: backbone B(g) of straight lines with slip. With the largest drift G so far and the unloading stiffness k, both
-  parts have the elastic limit y = B(G) / k. A share phi is elastic and perfectly plastic; the rest has a slack of G - y
+  parts have the elastic limit y = B(G) / k. A share phi is elastic-perfectly plastic; the rest has a slack of G - y
   on either side (docs/theory.md, section 4).
 * Column ends: a column turns about an edge of either end; the fittings on the other edge, at a distance b, stretch by
   b g. Half of a fitting's stiffness k and strength F is at that edge. With n columns of height h: stiffness n k b2 / h

@@ -37,7 +37,7 @@ def test_sentence_names_the_other_verdict_where_they_differ():
     for verdict in ("collapsed", "repairable"):
         walls = Walls("mean", OtherWalls("design", verdict, {}))
         texts.append(other_walls(sample_summary(peak_drift={"storey1": {"ns": 0.02, "ew": 0.0}}, walls=walls)))
-    assert [*texts, other_walls(sample_summary())] == ["with walls of the level design collapsed", "", ""]
+    assert [*texts, other_walls(sample_summary())] == ["verdict with design walls: collapsed", "", ""]
 
 
 def test_report_runs_both_levels(tmp_path):

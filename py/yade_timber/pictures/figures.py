@@ -93,7 +93,7 @@ def footer(figure, text):
     """One small line at the bottom of a figure, made smaller to fit the width."""
     width, height = figure.get_size_inches()
     text = drawable(text)
-    size = min(FOOTER_SIZE, FOOTER_SIZE * FOOTER_LETTERS * (width - 2 * MARGIN) / max(len(text), 1))
+    size = min(FOOTER_SIZE, FOOTER_SIZE * FOOTER_LETTERS * (width - 2 * MARGIN) / max(wide(text), 1))
     figure.text(MARGIN / width, FOOTER_PLACE / height, text, fontsize=size, color="#555555")
 
 

@@ -52,7 +52,7 @@ class RunOptions(MotionRequest):
     house: str = option(str, f"house file, or a shipped house: {', '.join(shipped_houses())}", "HOUSE", group="main")
     quake: bool = option(bool, "with the default earthquake", group="main")
     snow: float = option(float, "snow on the roofs [m] (default: the house file's)", "DEPTH", 0, MAX_SNOW, group="main")
-    walls: str = option(str, f"level of walls of a rated multiplier: {' or '.join(LEVELS)}", "LEVEL",
+    walls: str = option(str, f"strength of walls given by a multiplier: {' or '.join(LEVELS)}", "LEVEL",
                         choices=tuple(LEVELS), group="main")
     duration: float = option(
         float, f"simulated time [s] (default: the motion's, or {QUIET_DURATION:g})", "S", 0, MAX_DURATION, group="main")
@@ -65,7 +65,7 @@ class RunOptions(MotionRequest):
     jobs: int = option(int, "with --ensemble: runs at a time (default: one per core)", "N", 1, MOST_RUNS, group="run",
                        decides=False)
     dt: float = option(
-        float, f"time step [s] (default {DEFAULT_DT:g}); joints of floors and roofs are unstable at larger ones", "S",
+        float, f"time step [s] (default {DEFAULT_DT:g}, which is also the largest admissible)", "S",
         MIN_DT, MAX_DT, DEFAULT_DT, group="run",
     )
     joint_damping: float = option(float,

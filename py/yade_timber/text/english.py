@@ -38,7 +38,7 @@ def sentence(summary):
 
 
 def cut_off(summary):
-    """'Cut off at 5.93 s, results until then: ' of a run whose numbers failed, else empty."""
+    """'Cut off at 5.93 s, not to be relied on: ' of a run whose numbers failed, else empty."""
     return f"Cut off at {summary.duration_s:.2f} s, not to be relied on: " if summary.cut_off else ""
 
 
@@ -111,9 +111,9 @@ def outcome(summary):
 
 
 def other_walls(summary):
-    """'with walls of the level design collapsed' where the verdict depends on the level of the walls."""
+    """'verdict with design walls: collapsed' where the verdict depends on the level of the walls."""
     other = summary.walls and summary.walls.other
-    return (f"with walls of the level {other.level} {other.verdict}" if other and other.verdict != summary.main.verdict
+    return (f"verdict with {other.level} walls: {other.verdict}" if other and other.verdict != summary.main.verdict
             else "")
 
 
