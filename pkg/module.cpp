@@ -71,7 +71,14 @@ void setThreadCount(int count)
 	timber::setThreadCount(count);
 }
 
-std::string buildRecord() { return TIMBER_BUILD_RECORD; }
+/// Python reads the record from the file: not inlined, since GCC may copy a literal in pieces that are stored apart.
+[[gnu::noinline, gnu::noclone]] const char* recordInFile()
+{
+	static const char record[] [[gnu::used]] = TIMBER_BUILD_RECORD;
+	return record;
+}
+
+std::string buildRecord() { return recordInFile(); }
 
 } // namespace
 
