@@ -41,6 +41,26 @@ def test_candidates_of_a_house():
     ]
 
 
+def test_walls_that_cannot_be_built_are_no_measures(tmp_path):
+    """Three bays of the middle line, which has no beams here."""
+    house = tmp_path / "mine.yaml"
+    outer = "[{along: y, at: [0, 4], from: 0, to: 6}, {along: x, at: [0, 6], from: 0, to: 4, cut: true}]"
+    house.write_text(f"""extends: storehouse
+structures:
+  store:
+    columns: [{{section: 0.12, lines: {outer.replace(", cut: true", "")}}}]
+    stack:
+      - {{layer: foundation, height: 0.30, width: 0.15}}
+      - {{layer: sill, height: 0.12, width: 0.12}}
+      - {{layer: columns, height: 2.40}}
+      - {{layer: beams, height: 0.15, width: 0.12, lines: {outer}}}
+      - {{layer: roof, type: gable, ridge: y, pitch: 0.45, eaves: 0.30, thickness: 0.20, material: tiles}}
+""")
+    free = measures.free_wall_bays(measures.load_house(house), measures.SHEATHING)
+    found = [one.name for one in measures.candidates(house, 0.0, ("wall",))]
+    assert set(free) - set(found) == {"store.wall1.EW.y3.0-4.plywood"} and len(found) > 10
+
+
 @pytest.mark.parametrize("name, text", [
     ("main.brace1.EW.y0.3-4", "brace: main, storey 1, south wall, 3.2 m east"),
     ("main.brace1.NS.x8.4-5", "brace: main, storey 1, east wall, 4.1 m north"),

@@ -28,6 +28,9 @@ def _break(joints, structure, region, kind, default_end, path):
     end = wanted["end"] or default_end
     candidates = [j for j in joints if j.group == structure.name and j.kind == kind and j.storey == storey
                   and side in j.side and j.end == end and not j.broken]
+    if not candidates:
+        raise HouseError(f"{wanted.at('count')}: {path}: the {side} side of {structure.name} has no such whole joint at"
+                         f" the {end} of storey {storey}: sides are the first and last line of the grid")
     if wanted["count"] > len(candidates):
         raise HouseError(f"{wanted.at('count')}: {path}: {wanted['count']} joints are to be broken, but the {side} wall"
                          f" of {structure.name} has {len(candidates)} whole ones at the {end} of storey {storey}; lower"

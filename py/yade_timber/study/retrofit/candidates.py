@@ -2,8 +2,13 @@
 """Strengthening measures: a brace or a wall in a free bay, double fittings in a group of joints, snow cleared."""
 import math
 from dataclasses import dataclass, field
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
-from ...house import brace_parts, build_house, free_bays, free_wall_bays, load_house, wall_parts
+from ...base.atomic_write import write_text
+from ...house import (HouseError, brace_parts, build_house, changed_house, free_bays, free_wall_bays, load_house,
+                      wall_parts)
+from ...house.parser import house_text
 
 KINDS = ("brace", "wall", "fitting", "snow")
 USUAL_KINDS = ("brace", "fitting", "snow")
@@ -35,12 +40,30 @@ def candidates(house, snow, kinds=USUAL_KINDS, texts=("",), group="bay"):
     if "brace" in kinds:
         chosen += measures(model, free_bays(description))
     if "wall" in kinds:
-        chosen += measures(model, free_wall_bays(description, SHEATHING))
+        chosen += measures(model, buildable(house, free_wall_bays(description, SHEATHING)))
     if "fitting" in kinds:
         chosen += fittings(description, model)
     if "snow" in kinds and snow > 0:
         chosen.append(Candidate("snow_cleared", "snow cleared from the roofs", {"snow": "0"}))
     return [candidate for candidate in chosen if any(text in candidate.name for text in texts)]
+
+
+def buildable(house, names):
+    """Those of the walls with which the house can be built: with a beam, sill or floor above and below."""
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "house.yaml"
+        if _is_buildable(house, names, path):
+            return names
+        return [name for name in names if _is_buildable(house, [name], path)]
+
+
+def _is_buildable(house, walls, path):
+    try:
+        write_text(path, house_text(changed_house(house, braces=walls)))
+        build_house(load_house(path), check=False)
+    except HouseError:
+        return False
+    return True
 
 
 def fittings(description, model):
