@@ -169,7 +169,8 @@ def test_a_session_without_a_prompt_has_no_ports(options, tmp_path):
     """Importing the package closes them, whatever the script does then."""
     script = tmp_path / "my_scene.py"
     script.write_text(
-        "import os\nimport yade_timber\nfrom ports import listening_ports\nprint('ports', listening_ports())\n"
+        "import os\nimport yade_timber\nfrom ports import listening_ports\n"
+        "print('ports', listening_ports(), flush=True)\n"
         "os._exit(0)\n")
     done = subprocess.run(["yade", *options, str(script)], stdin=subprocess.DEVNULL, capture_output=True, text=True,
                           timeout=60)
