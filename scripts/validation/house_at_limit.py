@@ -21,7 +21,8 @@ from yade_timber.base.atomic_write import write_text
 from yade_timber.base.table import csv_text
 from yade_timber.run.options import RunOptions
 from yade_timber.study.driver import Task, run_missing
-from yade_timber.study.options import Parser, add_driver_options, non_negative, positive, record, results_folder, run_script
+from yade_timber.study.options import (Parser, add_driver_options, non_negative, positive, record, results_folder,
+                                       run_script)
 
 GRADE, LEVEL, RULE = 1.5, "design", "law"
 """The house (wall_grades.py)."""

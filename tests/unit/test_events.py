@@ -20,7 +20,8 @@ ROOF = list(frames_sample.PARTS).index("roof")
 
 def survey(run):
     """The sample's house: one storey of 2.7 m; its roof is the level of a structure beside the main one."""
-    return DamageSurvey(run.elements, run.joints, [Level("main", [1], [1.0], 2.7), Level("carport", [ROOF], [1.0], 2.7)])
+    levels = [Level("main", [1], [1.0], 2.7), Level("carport", [ROOF], [1.0], 2.7)]
+    return DamageSurvey(run.elements, run.joints, levels)
 
 
 def states(run):
