@@ -25,7 +25,7 @@ def find_joints(elements, description):
     """
     rules = description.data["joints"]
     contacts = _contacts(elements, description.data)
-    structures = {element.group for element in elements}
+    structures = {element.group for element in elements if element.kind != "ground"}
     for name, rule in rules.items():
         if rule["across"] and len(structures) > 1 and all(name != other for *_, other, _ in contacts):
             fail(rule.where, f"joints.{name}", "'across: true' joins no two structures: let their members touch, or"
