@@ -119,19 +119,20 @@ void HouseMonitor::validate() const
 	        "that of HouseMonitor.bodies; set both with updateAttrs()");
 }
 
-Vector3r HouseMonitor::meanDisplacement(int level) const
+Vector3r HouseMonitor::displacementOf(int level) const
 {
 	Vector3r sum = Vector3r::Zero();
-	int count = 0;
+	Real mass = 0;
 	for (size_t k = 0; k < math::min(bodies.size(), levels.size()); ++k) {
 		const Body* b = bodyAt(*scene, bodies[k]);
 		if (!b || levels[k] != level) continue;
 		const State& s = *b->state;
-		sum += s.pos - s.refPos;
-		++count;
+		sum += s.mass * (s.pos - s.refPos);
+		mass += s.mass;
 	}
-	if (count == 0) throw std::runtime_error("HouseMonitor: level " + std::to_string(level) + " has no body");
-	return sum / count;
+	if (!(mass > 0))
+		throw std::runtime_error("HouseMonitor: level " + std::to_string(level) + " has no body with a mass");
+	return sum / mass;
 }
 
 /// Of the current scene: before its first step, an engine of a loaded scene points to the previous one.
@@ -164,7 +165,7 @@ void HouseMonitor::record()
 	Vector3r below = Vector3r::Zero();
 	peak.resize(2 * heights.size(), 0);
 	for (size_t level = 1; level <= heights.size(); ++level) {
-		const Vector3r above = meanDisplacement(level);
+		const Vector3r above = displacementOf(level);
 		const Real height = heights[level - 1];
 		const Real ns = (above - below).y() / height, ew = (above - below).x() / height;
 		peak[2 * level - 2] = math::max(peak[2 * level - 2], math::abs(ns));

@@ -41,7 +41,7 @@ export class Panel {
   update(t, view) {
     const { info } = this.run;
     const down = info.collapse !== null && t >= info.collapse;
-    const drift = info.drifts.length ? ratio(driftAt(this.run, t)) : "";
+    const drift = info.drifts.length ? ratio(driftAt(this.run, t), info.levels) : "";
     const end = this.run.end.toFixed(1);
     const broken = brokenParts(this.run);
     const over = t > this.run.end + 1e-6;
@@ -90,13 +90,11 @@ function setText(place, text) {
   if (place.textContent !== text) place.textContent = text;
 }
 
-const LIMITS = [120, 30, 10]; // 1 / drift of verdict.LIMITS
-
 /** A drift as engineers write it: 1/85. One below a limit is not rounded up to it (text/english.py: ratio). */
-function ratio(drift) {
+function ratio(drift, levels) {
   if (drift < 1e-3) return "below 1/1000";
   const number = Math.round(1 / drift);
-  const below = LIMITS.includes(number) && drift < 1 / number;
+  const below = drift < 1 / number && levels.some(({ value }) => Math.round(1 / value) === number);
   return drift > 0.5 ? "over 1/2" : `1/${number + below}`;
 }
 

@@ -16,8 +16,8 @@ from yade_timber.house.weight import floor_area
 
 HOUSE, STRUCTURE, MODULE = "tiled_house", "main", 0.91
 """The plan, its structure, and its module [m]."""
-REQUIRED = {"light": (0.29, 0.15), "heavy": (0.33, 0.21)}
-"""Length of wall of multiplier 1 per floor area, storeys 1 and 2 of a house of two storeys, light and heavy roof [m/m2]
+REQUIRED = (0.33, 0.21)
+"""Length of wall of multiplier 1 per floor area, storeys 1 and 2 of a house of two storeys with a heavy roof [m/m2]
 (Enforcement Order of the Building Standard Law, Article 46, paragraph 4, table 2, as in force until March 2025)."""
 LABEL = {1.25: (0.58, 0.25), 1.5: (0.69, 0.30)}
 """Of a heavy roof, storeys 1 and 2, over K1 = 0.4 + 0.6 Rf and K2 = 1.3 + 0.07 / Rf with the ratio Rf of the floor
@@ -56,10 +56,10 @@ def factors(model, wall_types, grade, rule="law"):
             / existing_quantity(model, wall_types, k, d) for k in (1, 2) for d in AXES}
 
 
-def required_share(grade, rule, ratio, roof="heavy"):
+def required_share(grade, rule, ratio):
     """Wall quantity over floor area, storeys 1 and 2 [m/m2]. ratio: Rf [-]"""
     if rule == "law":
-        return [grade * share for share in REQUIRED[roof]]
+        return [grade * share for share in REQUIRED]
     first, second = LABEL[grade]
     return [first * (0.4 + 0.6 * ratio), second * (1.3 + 0.07 / ratio)]
 

@@ -20,7 +20,8 @@ ROOF = list(frames_sample.PARTS).index("roof")
 
 def survey(run):
     """The sample's house: one storey of 2.7 m; its roof is the level of a structure beside the main one."""
-    return DamageSurvey(run.elements, run.joints, [Level("main", [1], 2.7), Level("carport", [ROOF], 2.7)])
+    levels = [Level("main", [1], [1.0], 2.7), Level("carport", [ROOF], [1.0], 2.7)]
+    return DamageSurvey(run.elements, run.joints, levels)
 
 
 def states(run):
@@ -85,6 +86,17 @@ def test_drift_of_a_structure_is_the_larger_component():
     moved[[mark for level in levels for mark in level.marks]] += (0.03, 0.04, 0.0)
     assert known.drift(State(moved, state.orientation, state.broken), name) == pytest.approx(
         0.04 / levels[0].height, rel=1e-6)
+
+
+def test_a_level_moves_with_its_centre_of_mass():
+    """Of three members of a level, one of 10 kg has fallen by 3 m and lies 3 m to the east; one is removed."""
+    run = frames_sample.run(until=1.0)
+    known = DamageSurvey(run.elements, run.joints, [Level("main", [0, 1, 2], [10.0, 990.0, 500.0], 2.7)])
+    moved = run.elements.position.copy()
+    moved[:3] += ((3.0, 0.0, -3.0), (0.027, 0.0, 0.0), (np.nan, np.nan, np.nan))
+    state = State(moved, run.elements.orientation, states(run)[0][1].broken)
+    assert known.drift(state, "main") == pytest.approx((0.03 + 0.99 * 0.027) / 2.7, rel=1e-5)
+    assert known.fallen_structures(state) == []
 
 
 def test_a_resumed_log_repeats_nothing():

@@ -115,3 +115,35 @@ def test_strength_of_a_rule_for_yielding_joints(tmp_path, strength, refused):
             load_house(tmp_path / "own.yaml")
     else:
         load_house(tmp_path / "own.yaml")
+
+
+def ends(model):
+    """{(column, end): its joints}"""
+    joints = {}
+    for joint in model.joints:
+        if joint.end and model.element(joint.a).kind == "column":
+            joints.setdefault((joint.a, joint.end), []).append(joint)
+    return joints
+
+
+def test_an_end_on_two_members_has_its_fittings_once(tmp_path):
+    """Columns of 15 cm at corners of beams 12 cm wide touch the beam that ends there as well: 1.5 cm x 12 cm."""
+    text = load_house("storehouse").path.read_text()
+    path = tmp_path / "own.yaml"
+    path.write_text(text.replace("section: 0.12 ", "section: 0.15 ", 1).replace("name: storehouse", "name: own"))
+    single, double = ends(build_house(load_house("storehouse"))), ends(build_house(load_house(path)))
+    assert {len(joints) for joints in single.values()} == {1} and max(map(len, double.values())) == 2
+    strength, stiffness = single["store.column1.x0y0", "top"][0].strength, single["store.column1.x0y0", "top"][0].kn
+    for joints in double.values():
+        assert sum(joint.strength for joint in joints) == pytest.approx(strength)
+        assert sum(joint.kn for joint in joints) == pytest.approx(stiffness)
+        assert [joint.strength / strength for joint in joints] == pytest.approx(
+            [joint.area / sum(other.area for other in joints) for joint in joints])
+
+
+def test_a_rule_between_structures_that_do_not_touch_is_refused(tmp_path):
+    (tmp_path / "own.yaml").write_text(
+        "extends: A\nname: own\njoints:\n"
+        "  tie: {between: [column, column], type: corner_fitting, kind: tie, across: true}\n")
+    with pytest.raises(HouseError, match="own.yaml:4: joints.tie: 'across: true' joins no two structures"):
+        build_house(load_house(tmp_path / "own.yaml"))

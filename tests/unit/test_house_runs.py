@@ -116,6 +116,21 @@ def test_drift_refers_to_the_height_of_its_own_storey():
         yt.HouseMonitor(heights=[2.0, 0.0])
 
 
+def test_a_level_moves_with_its_centre_of_mass():
+    """A roof of 1 m3 moves by 2 cm to the east over a storey of 2 m; a loose block of 1 dm3 has fallen by 3 m and lies
+    3 m to the east.
+    """
+    O.reset()
+    ids = [O.bodies.append(yt.box((size, size, size), (0, 0, 2 * size), fixed=True)) for size in (1.0, 0.1)]
+    monitor = yt.HouseMonitor(bodies=ids, levels=[1, 1], heights=[2.0])
+    O.engines, O.dt = [monitor], 1e-3
+    O.bodies[ids[0]].state.pos += (0.02, 0, 0)
+    O.bodies[ids[1]].state.pos += (3, 0, -3)
+    O.step()
+    assert list(monitor.peak) == pytest.approx([0, (0.02 + 3e-3) / 1.001 / 2], rel=1e-9)
+    assert np.isnan(monitor.collapseTime)
+
+
 def test_each_storey_has_its_height(tmp_path):
     path = tmp_path / "low.yaml"
     path.write_text(
@@ -128,7 +143,7 @@ def test_each_storey_has_its_height(tmp_path):
 
 
 def test_a_roof_right_on_the_columns_marks_the_upper_level(tmp_path):
-    """No beams under the roof of a house that has a floor: the roof itself marks the level of the upper storey."""
+    """No beams under the roof of a house that has a floor: the roof alone marks the level of the upper storey."""
     base = yaml.safe_load((SHIPPED / "paper.yaml").read_text())
     stack = [*base["structures"]["main"]["stack"][:6], {"layer": "roof", "type": "flat",
                                                         "thickness": 0.12}]  # without the upper beams
@@ -148,21 +163,26 @@ def structures(model):
             if facts.collapsed], [name for name, facts in found.items() if facts.leans]
 
 
+def move_entrance_roof(*shift):
+    """Move the roof of house A's entrance with the beams under it, which are its only level. [m]"""
+    for b in O.bodies:
+        if b.shape.name.startswith(("entrance.roof", "entrance.beam")):
+            b.state.pos += shift
+
+
 def test_fallen_structures_are_named():
-    """An entrance that falls alone; its roof marks its only level."""
+    """An entrance that falls alone."""
     model = scenario.build(scenario.Scenario("fallen", "A"))
     assert structures(model) == ([], [])
-    roof = next(b for b in O.bodies if b.shape.name == "entrance.roof")
-    roof.state.pos -= (0, 0, 1.4)
+    move_entrance_roof(0, 0, -1.4)
     assert structures(model) == (["entrance"], [])
 
 
 def test_leaning_structures_are_named():
     model = scenario.build(scenario.Scenario("leaning", "A"))
-    roof = next(b for b in O.bodies if b.shape.name == "entrance.roof")
-    roof.state.pos += (0.2, 0, 0)
+    move_entrance_roof(0.2, 0, 0)
     assert structures(model) == ([], [])
-    roof.state.pos += (0.2, 0, 0)
+    move_entrance_roof(0.2, 0, 0)
     assert structures(model) == ([], ["entrance"])
 
 
@@ -237,7 +257,7 @@ def test_damage_before_the_shaking_is_an_event():
     for lean, time, last, events in cases:
         model = scenario.build(scenario.Scenario("weight", "A", GroundMotion(0.01, shaking)))
         observed = Observer(model)
-        next(b for b in O.bodies if b.shape.name == "entrance.roof").state.pos += (lean, 0, 0)
+        move_entrance_roof(lean, 0, 0)
         observed.observe(time, last)
         texts = [english.event(event) for event in observed.log.events if event.kind == "own_weight"]
         assert texts == ["damaged before the shaking, by its own weight: entrance: peak drift 1/14"] * events

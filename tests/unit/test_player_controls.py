@@ -214,3 +214,17 @@ def test_the_card_shows_largest_forces_and_uplift(driver, tmp_path):
     ask(driver, "player.speak('ja')")
     assert card_of(driver, foot) == ["最大引張 1.3 kN、せん断 0.7 kN", "柱脚の最大浮き上がり 2.9 mm"]
     assert errors(driver) == []
+
+
+def test_the_card_says_up_to_when_forces_of_a_fallen_house_are(driver, tmp_path):
+    frames_sample.write_tables(tmp_path)
+    run = frames_sample.run()
+    run.summary = run.summary.changed(quantities={"until_s": 2.3})
+    page = player.make([(tmp_path / "frames.h5", run)], tmp_path / "page.html")
+    load(driver, f"file://{page}#t=1", motion=False)
+    ask(driver, "document.getElementById('camera-front').click()")
+    foot = ask(driver, "player.joint(1)")
+    assert card_of(driver, foot) == ["largest pull 1.3 kN, shear 0.7 kN before 2.30 s",
+                                     "largest uplift of the column's foot 2.9 mm before 2.30 s"]
+    ask(driver, "player.speak('ja')")
+    assert card_of(driver, foot) == ["最大引張 1.3 kN、せん断 0.7 kN（2.30 秒まで）", "柱脚の最大浮き上がり 2.9 mm（2.30 秒まで）"]

@@ -298,3 +298,28 @@ def test_wall_sheets_are_counted_apart(driver, tmp_path):
     assert "joint or wall broken" in driver.find_element("tag name", "body").text
     assert driver.find_element("class name", "result").text.count("2 of 2 joints and 3 of 3 wall sheets broken") == 1
     assert errors(driver) == []
+
+
+def test_a_drift_beyond_the_scale_is_drawn_at_the_border(still):
+    """The drift N-S after the fall is 1.3, the largest of the scale 1/5: blue or orange in the first rows of pixels."""
+    chart = "document.querySelector('canvas.drift')"
+    colours = ask(still, f"""(() => {{
+        const canvas = {chart} ?? [...document.querySelectorAll('canvas')].at(-1);
+        const {{ width, height }} = canvas;
+        const rgba = canvas.getContext('2d').getImageData(Math.round(0.9 * width), 0, 1, height).data;
+        return Array.from({{ length: height }}, (_, row) => Math.max(...rgba.slice(4 * row, 4 * row + 3))
+            - Math.min(...rgba.slice(4 * row, 4 * row + 3)));
+    }})()""")
+    assert max(colours[:3]) > 60
+
+
+def test_stages_of_a_comparison_have_one_size(driver, tmp_path):
+    """But for the line between them, also where one title is longer than its panel."""
+    short, long = frames_sample.run(name="A"), frames_sample.run(name="B" + " with a title of many words" * 4)
+    page = player.make([("a", short), ("b", long)], tmp_path / "two.html")
+    load(driver, f"file://{page}#t=1", motion=False)
+    for size, phone in ((WIDE, False), (PHONE, True)):
+        reshape(driver, size, phone)
+        boxes = "[...document.querySelectorAll('.stage')].map((e) => [e.clientWidth, e.clientHeight])"
+        first, second = ask(driver, boxes)
+        assert first == pytest.approx(second, abs=4) and min(first) > 100

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Joints found from the contact areas between elements (paper, 4: four springs at the corners of the contact area)."""
+from collections import Counter
 from itertools import combinations
 
 import numpy as np
@@ -9,6 +10,7 @@ from .geometry import contact_polygon, plane_axes, polygon_area
 from .joint_values import END_JOINED, joint_values, kinds_of
 from .limits import MAX_PAIRS
 from .model import JointSpec
+from .schema import fail
 
 LYING = 0.1
 """Vertical part of a contact's unit normal from which on one element lies on the other: slopes up to 84 degrees. [-]"""
@@ -17,23 +19,49 @@ LYING = 0.1
 def find_joints(elements, description):
     """JointSpec for every pair of elements whose kinds match a rule and whose faces lie flush on each other.
 
-    Contacts below `joint_search.min_area` get none: a 12 cm column touches the beam beside its own by a strip.
+    Contacts below `joint_search.min_area` get none: a 12 cm column touches the beam beside its own by a strip. Joints
+    of a rule at one face of an end share its fittings by their areas: a column end on two crossing beams. HouseError
+    for a rule between structures that joins none.
     """
-    data = description.data
-    rules = {(*kinds, rule["across"]): rule for rule in data["joints"].values() for kinds in kinds_of(rule)}
+    rules = description.data["joints"]
+    contacts = _contacts(elements, description.data)
+    structures = {element.group for element in elements if element.kind != "ground"}
+    for name, rule in rules.items():
+        if rule["across"] and len(structures) > 1 and all(name != other for *_, other, _ in contacts):
+            fail(rule.where, f"joints.{name}", "'across: true' joins no two structures: let their members touch, or"
+                 f" remove the rule ({name}: null)")
+    faces = [_end_face(a, name, contact) for a, _, name, contact in contacts]
+    areas = Counter()
+    for face, (*_, contact) in zip(faces, contacts):
+        areas[face] += contact[2]
+    return [_joint(a, b, contact, joint_values(description.data, rules[name], contact[2] / areas[face] if face else 1))
+            for face, (a, b, name, contact) in zip(faces, contacts)]
+
+
+def _contacts(elements, data):
+    """[(element, element, name of the rule, contact_polygon)]; the first element is the rule's first kind."""
+    rules = {(*kinds, rule["across"]): name for name, rule in data["joints"].items() for kinds in kinds_of(rule)}
     tolerance, min_area = data["joint_search"]["plane_tolerance"], data["joint_search"]["min_area"]
-    joints = []
+    contacts = []
     for a, b in near_pairs(elements, tolerance):
         across = a.group != b.group
         if (a.kind, b.kind, across) not in rules:
             a, b = b, a
-        rule = rules.get((a.kind, b.kind, across))
-        if rule is None:
-            continue
-        contact = contact_polygon(a.solid, b.solid, tolerance)
+        name = rules.get((a.kind, b.kind, across))
+        contact = name and contact_polygon(a.solid, b.solid, tolerance)
         if contact and contact[2] >= min_area:
-            joints.append(_joint(a, b, rule, contact, data))
-    return joints
+            contacts.append((a, b, name, contact))
+    return contacts
+
+
+def _end_face(a, name, contact):
+    """Key of the face of a column's or brace's end that a rule joins; None elsewhere."""
+    return (a.name, name, *np.round(contact[1], 3)) if _is_end(a, contact[1]) else None
+
+
+def _is_end(a, normal):
+    """Whether a face of an element is that of an end. Columns of two wings have joints at their sides."""
+    return a.kind in END_JOINED and (a.kind != "column" or abs(normal[2]) > LYING)
 
 
 def near_pairs(elements, margin):
@@ -50,15 +78,14 @@ def near_pairs(elements, margin):
     return pairs
 
 
-def _joint(a, b, rule, contact, data):
+def _joint(a, b, contact, values):
     polygon, normal, area = contact
     points = spring_points(polygon, normal)
-    end_joined = a.kind in END_JOINED
-    at_end = end_joined and (a.kind != "column" or abs(normal[2]) > LYING)  # columns of two wings: joints at the sides
-    end = ("top" if points[:, 2].mean() > a.solid.centroid[2] else "bottom") if at_end else ""
+    end = ""
+    if _is_end(a, normal):
+        end = "top" if points[:, 2].mean() > a.solid.centroid[2] else "bottom"
     return JointSpec(a.name, b.name, points, normal, area=area, storey=a.storey,
-                     side=a.side if end_joined else a.side or b.side, end=end, group=a.group,
-                     **joint_values(data, rule))
+                     side=a.side if a.kind in END_JOINED else a.side or b.side, end=end, group=a.group, **values)
 
 
 def spring_points(polygon, normal):

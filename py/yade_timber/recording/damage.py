@@ -28,11 +28,20 @@ TOUCH = 0.05
 
 @dataclass(frozen=True)
 class Level:
-    """Top of a storey. structure: name; marks: numbers of the elements at this level; height of the storey [m]."""
+    """Top of a storey. structure: name; marks: numbers of the elements at this level; their masses [kg]; height of the
+    storey [m].
+    """
 
     structure: str
     marks: list
+    masses: list
     height: float
+
+    def displacement(self, moved):
+        """(3,) displacement of the centre of mass, as of HouseMonitor. moved: (n, 3) of all elements, NaN: removed."""
+        moved, masses = moved[self.marks], np.array(self.masses)
+        present = ~np.isnan(moved[:, 0])
+        return masses[present] @ moved[present] / masses[present].sum()
 
 
 @dataclass(frozen=True)
@@ -124,14 +133,10 @@ class DamageSurvey:
     # --- structures and snow ------------------------------------------------------------------------------------------
 
     def _moves(self, state, structure):
-        """[((3,) mean displacement of a level since the start, height of its storey [m])] from below."""
-        moves = []
-        for level in self.levels:
-            marks = [k for k in level.marks if not np.isnan(state.position[k, 0])]
-            if level.structure == structure and marks:
-                move = (state.position[marks] - self.elements.position[marks]).sum(0) / len(marks)
-                moves.append((move, level.height))
-        return moves
+        """[((3,) displacement of a level since the start, height of its storey [m])] from below."""
+        moved = state.position - self.elements.position
+        return [(level.displacement(moved), level.height) for level in self.levels
+                if level.structure == structure and not np.isnan(moved[level.marks, 0]).all()]
 
     def fallen_structures(self, state):
         """Names of the structures of which a level has come down by half its storey."""

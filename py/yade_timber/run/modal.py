@@ -20,7 +20,7 @@ def modes_now(levels):
     modes = []
     for mode in natural_modes():
         share = {axis: round(float(mode.mass[AXES[axis]] / mass), 4) for axis in DIRECTIONS}
-        shape = np.array([mode.shape[level.marks, :3].mean(0) for level in levels])
+        shape = np.array([level.displacement(mode.shape[:, :3]) for level in levels])
         largest = max(shape[:, :2].flat, key=abs, default=1.0)
         if abs(largest) < ROUNDING * abs(mode.shape[:, :3]).max():  # of another structure
             continue

@@ -65,7 +65,8 @@ def describe_levels(model):
     for structure, storeys in model.storey_levels.items():
         marks = level_marks(model, structure)
         for storey, (foot, head) in sorted(storeys.items()):
-            levels.append(Level(structure, [number[e.name] for e, level in marks if level == storey], head - foot))
+            members = [e for e, level in marks if level == storey]
+            levels.append(Level(structure, [number[e.name] for e in members], [e.mass for e in members], head - foot))
     return levels
 
 

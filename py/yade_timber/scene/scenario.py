@@ -115,12 +115,12 @@ def add_joints(model, ids):
 
 
 def level_marks(model, structure):
-    """[(element, level)] of a structure; level k is the top of storey k: floor, else beams or roof."""
-    kinds = ("floor", "beam", "roof") if model.of_kind("floor", group=structure) else ("roof", "beam")
+    """[(element, level)] of a structure; level k is the top of storey k: floors, else beams and roof."""
     marks = []
     for storey in sorted(model.storey_levels[structure]):
-        levels = [[e for e in model.of_kind(kind, group=structure) if e.storey == storey] for kind in kinds]
-        marks += [(e, storey) for e in next(filter(None, levels), [])]
+        floors, others = ([e for kind in kinds for e in model.of_kind(kind, group=structure) if e.storey == storey]
+                          for kinds in (("floor",), ("beam", "roof")))
+        marks += [(e, storey) for e in floors or others]
     return marks
 
 
