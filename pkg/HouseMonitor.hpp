@@ -23,7 +23,8 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(HouseMonitor, GlobalEngine,
 		"Samples storey drifts, broken joints and energies at an interval. Drift of a storey is the "
 		"horizontal displacement of the level above it minus that of the level below, over the storey's "
-		"height. A level's displacement is that of the centre of mass of its bodies. A level that has dropped by half the height of its storey counts as collapsed. "
+		"height. A level's displacement is that of the centre of mass of its bodies. A level that has "
+		"dropped by half the height of its storey counts as collapsed. "
 		"Must come after the integrator. Energies are those at the half step to which the velocities belong: "
 		"elastic energies of the last placement are extrapolated with their rate.",
 		((Real, interval, 0.01, Attr::triggerPostLoad, "Simulated time between samples; 0: every step. [s]"))
