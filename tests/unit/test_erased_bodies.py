@@ -24,7 +24,8 @@ def plate():
 
 def start(dt=2e-4, steps=0, **options):
     O.dt, O.engines = dt, yt.engines(**options)
-    O.run(steps, True)
+    if steps:
+        O.run(steps, True)
 
 
 def reload(tmp_path):
