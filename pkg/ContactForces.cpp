@@ -27,6 +27,13 @@ namespace {
 			for (int j = 0; j < 3; ++j)
 				body.inverseInertia(i, j) = scaled.row(i).dot(axes.row(j));
 	}
+
+	/// Work of a body that moves in a step of h [s], against forces on it. [J]
+	Real workAgainst(const BodyForces& forces, Body::id_t id, const State& s, Real h)
+	{
+		if (size_t(id) >= forces.force.size()) return 0;
+		return -h * (forces.force[id].dot(s.vel) + forces.torque[id].dot(s.angVel));
+	}
 }
 
 void ContactForces::validate() const
@@ -71,8 +78,9 @@ void ContactForces::collectPairs()
 void ContactForces::collectBody(Body::id_t id)
 {
 	const shared_ptr<Body>& b = (*scene->bodies)[id];
-	if (!b) return;
 	timber::SolverBody& body = bodies[id];
+	body.inverseMass = 0;
+	if (!b) return;
 	setBody(body, *b->state);
 	if (body.inverseMass == 0) return;
 	body.newVelocity += scene->dt * body.inverseMass * scene->forces.getForce(id);
@@ -86,10 +94,6 @@ void ContactForces::collectBodies()
 	sums.clear(count);
 	syncForces(*scene);
 	timber::forAll(count, [this](int id) { collectBody(id); });
-	for (const shared_ptr<Body>& b : *scene->bodies)
-		if (b && !isFree(*b->state) && !(b->state->vel.isZero(0) && b->state->angVel.isZero(0)))
-			imposedWork += imposedWorkOf(b->getId(), scene->forces.getForce(b->getId()),
-			        scene->forces.getTorque(b->getId())); // forces of joints
 }
 
 /// Bodies must not be placed deeper in each other than weights press them: their springs would throw them apart.
@@ -113,21 +117,42 @@ void ContactForces::findIslands()
 	std::transform(joints.begin(), joints.end(), links.begin() + pairs.size(),
 	        [&](const TimberJoint* j) { return timber::Link(end(j->id1), end(j->id2)); });
 	islands.find(bodies.size(), links);
+	supports.clear();
+	for (size_t k = 0; k < links.size(); ++k)
+		if (math::min(links[k].first, links[k].second) < 0) supports.push_back(k);
+	linkForces.resize(links.size());
 }
 
-/// Work of a fixed body in a step against a force and torque on it. [J]
-Real ContactForces::imposedWorkOf(Body::id_t id, const Vector3r& force, const Vector3r& torque) const
+/// A fixed body may belong to several islands, which other threads solve: sumSupports() adds its forces.
+void ContactForces::addForce(size_t link, const timber::PairForce& f)
 {
-	return -scene->dt * (force.dot(bodies[id].velocity) + torque.dot(bodies[id].spin));
+	const auto [a, b] = links[link];
+	if (a >= 0) sums.add(a, -f.onB, f.torqueA);
+	if (b >= 0) sums.add(b, f.onB, f.torqueB);
+	if (math::min(a, b) < 0) linkForces[link] = f;
 }
 
-/// Returns the work of fixed bodies [J]. They may belong to several islands, which other threads solve.
-Real ContactForces::addForce(const timber::PairForce& f, Body::id_t id1, Body::id_t id2)
+/// Forces on fixed bodies, in the order of the links: they do not depend on the number of threads.
+void ContactForces::sumSupports()
 {
-	if (bodies[id1].inverseMass > 0) sums.add(id1, -f.onB, f.torqueA);
-	if (bodies[id2].inverseMass > 0) sums.add(id2, f.onB, f.torqueB);
-	return (bodies[id1].inverseMass > 0 ? 0 : imposedWorkOf(id1, -f.onB, f.torqueA))
-	        + (bodies[id2].inverseMass > 0 ? 0 : imposedWorkOf(id2, f.onB, f.torqueB));
+	for (const size_t link : supports) {
+		const timber::PairForce& f = linkForces[link];
+		const auto [a, b] = links[link];
+		if (a < 0) sums.add(~a, -f.onB, f.torqueA);
+		if (b < 0) sums.add(~b, f.onB, f.torqueB);
+	}
+}
+
+/// Work of fixed bodies that move, against the forces of contacts and joints on them.
+void ContactForces::addImposedWork()
+{
+	const JointEngine* springs = findEngine<JointEngine>(*scene);
+	for (const shared_ptr<Body>& b : *scene->bodies) {
+		if (!b || isFree(*b->state) || (b->state->vel.isZero(0) && b->state->angVel.isZero(0))) continue;
+		const Body::id_t id = b->getId();
+		imposedWork += workAgainst(sums, id, *b->state, scene->dt);
+		if (springs) imposedWork += workAgainst(springs->forces(), id, *b->state, scene->dt);
+	}
 }
 
 /// All phases of the solver (contact_solver.hpp) for one island, while it is in the processor's cache.
@@ -150,13 +175,15 @@ ContactForces::IslandResult ContactForces::solveIsland(timber::Islands::Island i
 		else prepareJoint(solver, k - pairCount, joint(k), *scene);
 	});
 	result.convergence = solver.solve(tolerance);
-	for (int k = 0; k < pairCount; ++k)
-		result.imposedWork
-		        += addForce(timber::storeForces(solver, k, pair(k).phys->properties(), result.energies),
-		                pair(k).id1, pair(k).id2);
+	for (int k = 0; k < pairCount; ++k) {
+		const timber::PairForce f
+		        = timber::storeForces(solver, k, pair(k).phys->properties(), result.energies);
+		pair(k).phys->normalForce = f.normalOnB;
+		pair(k).phys->shearForce = f.onB - f.normalOnB;
+		addForce(island[k], f);
+	}
 	for (int k = pairCount; k < count; ++k)
-		result.imposedWork += addForce(
-		        storeJoint(solver, k - pairCount, *scene, joint(k), result.joints), joint(k).id1, joint(k).id2);
+		addForce(island[k], storeJoint(solver, k - pairCount, *scene, joint(k), result.joints));
 	return result;
 }
 
@@ -188,7 +215,6 @@ void ContactForces::sumResults()
 		elasticNormal += result.energies.elasticNormal;
 		elasticShear += result.energies.elasticShear;
 		jointDashpot += result.joints.dissipated;
-		imposedWork += result.imposedWork;
 		newmark += result.joints.stored;
 		mostSweeps = std::max(mostSweeps, result.convergence.sweeps);
 		allConverged = allConverged && result.convergence.converged;
@@ -200,8 +226,37 @@ void ContactForces::sumResults()
 	worstChange = std::max(worstChange, largestChange);
 }
 
+/// YADE's container of forces is not saved.
+void ContactForces::preSave(ContactForces&)
+{
+	const shared_ptr<Scene>& current = Omega::instance().getScene();
+	if (findEngine<ContactForces>(*current, true) != this || !current->forces.getPermForceUsed()) return;
+	syncForces(*current); // before it, forces of bodies that were appended since are not found
+	const size_t count = current->bodies->size();
+	permanentForces.assign(count, Vector3r::Zero());
+	permanentTorques.assign(count, Vector3r::Zero());
+	for (const shared_ptr<Body>& b : *current->bodies) {
+		if (!b) continue;
+		permanentForces[b->getId()] = current->forces.getPermForce(b->getId());
+		permanentTorques[b->getId()] = current->forces.getPermTorque(b->getId());
+	}
+}
+
+/// After loading, in the first step: permanent forces that were set since then replace those of the file.
+void ContactForces::restorePermanentForces()
+{
+	const bool areOthersSet = scene->forces.getPermForceUsed();
+	for (size_t id = 0; id < permanentForces.size() && !areOthersSet; ++id) {
+		scene->forces.setPermForce(id, permanentForces[id]);
+		scene->forces.setPermTorque(id, permanentTorques[id]);
+	}
+	permanentForces.clear();
+	permanentTorques.clear();
+}
+
 void ContactForces::action()
 {
+	if (!permanentForces.empty()) restorePermanentForces();
 	collectPairs();
 	checkPlacements();
 	collectBodies();
@@ -212,6 +267,8 @@ void ContactForces::action()
 	findIslands();
 	solveAll();
 	sumResults();
+	sumSupports();
+	addImposedWork();
 	sums.handOver(*scene);
 }
 

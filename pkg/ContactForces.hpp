@@ -26,7 +26,6 @@ class ContactForces : public GlobalEngine {
 		timber::PairEnergies energies;
 		JointEnergies joints;
 		timber::Convergence convergence;
-		Real imposedWork = 0; ///< by the contacts of fixed bodies that move [J]
 	};
 	std::vector<ContactPair> pairs, unordered; ///< ordered by body ids, and in the container's order
 	std::vector<size_t> order; ///< of each of `pairs`, its index in `unordered`
@@ -36,7 +35,9 @@ class ContactForces : public GlobalEngine {
 	std::vector<timber::ContactSolver> solvers; ///< of each thread
 	std::vector<timber::SolverBody> bodies; ///< indexed by body id
 	std::vector<IslandResult> results; ///< of each island
-	BodyForces sums; ///< of contacts and joint dashpots, on free bodies
+	std::vector<size_t> supports; ///< of the links, those with a fixed body
+	std::vector<timber::PairForce> linkForces; ///< of those links
+	BodyForces sums; ///< of contacts, and of the joints that the solver treats
 
 	static void findPairs(const Scene&, std::vector<ContactPair>&);
 	void sortPairs();
@@ -45,14 +46,17 @@ class ContactForces : public GlobalEngine {
 	void collectBodies();
 	void checkPlacements() const;
 	void findIslands();
-	Real imposedWorkOf(Body::id_t id, const Vector3r& force, const Vector3r& torque) const;
-	Real addForce(const timber::PairForce&, Body::id_t id1, Body::id_t id2);
+	void addForce(size_t link, const timber::PairForce&);
+	void sumSupports();
+	void addImposedWork();
+	void restorePermanentForces();
 	IslandResult solveIsland(timber::Islands::Island);
 	void solveAll();
 	void sumResults();
 
 public:
 	void postLoad(ContactForces&) { validate(); }
+	void preSave(ContactForces&);
 	void validate() const;
 	void action() override;
 	/// Largest eigenvalue of M^-1 K of the present contacts and joints of the current scene. [1/s2]
@@ -65,7 +69,7 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(ContactForces, GlobalEngine,
-		"Adds the contact forces to the bodies: elastic forces of the laws, dashpots (paper, Eqs. 17, 18, "
+		"Adds the contact forces to the bodies, free and fixed: elastic forces of the laws, dashpots (paper, Eqs. 17, 18, "
 		"21-24), no tension, Coulomb friction. Adds the forces of the joints' dashpots "
 		"(TimberJoint.dampingRatio), too. "
 		"Must come after the InteractionLoop and all other forces (joints, gravity, ground motion) and before "
@@ -96,7 +100,10 @@ public:
 		((Real, elasticNormal, 0, , "Energy of the normal springs in the middle between the last placement and "
 			"the next one. [J]"))
 		((Real, elasticShear, 0, , "Energy of the tangential springs in the middle between the last placement "
-			"and the next one. [J]")),
+			"and the next one. [J]"))
+		((vector<Vector3r>, permanentForces, , Attr::hidden, "Of a loaded scene before its first step, by body "
+			"id: forces of O.forces.setPermF. [N]"))
+		((vector<Vector3r>, permanentTorques, , Attr::hidden, "Torques of O.forces.setPermT. [N m]")),
 		,
 		.def("largestEigenvalue", &ContactForces::largestEigenvalue, "Largest eigenvalue of M^-1 K of the "
 			"present contacts and joints of the scene. [1/s2]")

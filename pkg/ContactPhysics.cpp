@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <ContactPhysics.hpp>
+#include <Integrator.hpp>
 #include <bodies.hpp>
 #include <validation.hpp>
 #include <set>
@@ -64,19 +65,6 @@ namespace {
 		return true;
 	}
 
-	/// Relative speed below which the points of a new pair were placed in contact, and have not flown there. [m/s]
-	constexpr Real restSpeed = 0.1;
-
-	bool isPlaced(const ManifoldGeom& geom, const State& a, const State& b)
-	{
-		return std::all_of(geom.contactPoints.begin(), geom.contactPoints.end(), [&](const auto& p) {
-			return timber::relativeVelocity<double>(
-			               p.position - a.pos, p.position - b.pos, a.vel, a.angVel, b.vel, b.angVel)
-			               .norm()
-			        < restSpeed;
-		});
-	}
-
 	bool boundsOverlap(const Body& b1, const Body& b2)
 	{
 		return b1.bound && b2.bound && (b1.bound->min.array() <= b2.bound->max.array()).all()
@@ -96,15 +84,17 @@ namespace {
 		}
 		phys.power = Law::power;
 		const timber::PairProperties pair = phys.properties();
-		const bool placed = phys.records.empty() && I->isFresh(scene) && isPlaced(geom, *b1.state, *b2.state);
+		const bool placed = phys.records.empty() && (wasPlaced(*scene, b1) || wasPlaced(*scene, b2));
 		phys.releasedEnergy = timber::elasticPair(law,
 		        { pair, kinematics(*b1.state), kinematics(*b2.state), scene->dt, form, placed },
 		        geom.contactPoints, phys.records);
 		phys.placedEnergy = phys.placedOverlap = 0;
 		for (size_t k = 0; placed && k < phys.records.size(); ++k) {
+			if (!(phys.records[k].normalStored > 0)) continue; // reached by its approach
 			phys.placedEnergy += phys.records[k].normalStored;
 			phys.placedOverlap = math::max(phys.placedOverlap, Real(phys.records[k].overlap));
 		}
+		if (phys.records.empty()) phys.normalForce = phys.shearForce = Vector3r::Zero();
 		return true;
 	}
 

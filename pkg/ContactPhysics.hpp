@@ -5,6 +5,7 @@
 #include <ContactGeometry.hpp>
 #include <Materials.hpp>
 #include <kernel/contact_pair.hpp>
+#include <pkg/common/NormShearPhys.hpp>
 
 namespace boost {
 namespace serialization {
@@ -30,8 +31,8 @@ namespace serialization {
 
 namespace yade {
 
-/// Base of all contact laws' IPhys.
-class ManifoldPhys : public IPhys {
+/// Base of all contact laws' IPhys. YADE's functions read the attributes of NormShearPhys: the forces of the last step.
+class ManifoldPhys : public NormShearPhys {
 public:
 	void postLoad(ManifoldPhys&) { ManifoldPhys::validate(); }
 	void validate() const;
@@ -47,8 +48,8 @@ public:
 	boost::python::list pyPoints() const;
 
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(ManifoldPhys, IPhys, "Properties of a pair in contact and the history of its "
-		"points.",
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(ManifoldPhys, NormShearPhys, "Properties of a pair in contact and the history "
+		"of its points. ``normalForce`` and ``shearForce`` [N]: sums over the points in the last step.",
 		((Real, mass, NaN, Attr::triggerPostLoad, "Equivalent mass of the two elements. [kg] (paper, Eq. 43)"))
 		((Real, friction, NaN, Attr::triggerPostLoad, "Coulomb friction coefficient. [-]"))
 		((Real, shearRatio, NaN, Attr::triggerPostLoad, "K_s / K_n. [-] (paper, Eq. 40)"))
@@ -68,7 +69,7 @@ public:
 			"list of (feature id, elastic normal force [N], elastic shear force [N], dashpot force [N]).")
 	);
 	// clang-format on
-	REGISTER_CLASS_INDEX(ManifoldPhys, IPhys);
+	REGISTER_CLASS_INDEX(ManifoldPhys, NormShearPhys);
 };
 REGISTER_SERIALIZABLE(ManifoldPhys);
 

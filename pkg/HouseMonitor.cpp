@@ -4,7 +4,6 @@
 #include <bodies.hpp>
 #include <sampling.hpp>
 #include <validation.hpp>
-#include <pkg/common/GravityEngines.hpp>
 
 namespace yade {
 
@@ -14,14 +13,6 @@ namespace {
 	/// Columns of each level and their units.
 	const std::pair<const char*, const char*> levelColumns[]
 	        = { { "drift_ns", " [-]" }, { "drift_ew", " [-]" }, { "drop", " [m]" } };
-
-	/// Acceleration of gravity, this package's or YADE's. [m/s2]
-	Vector3r gravityOf(const Scene& scene)
-	{
-		if (const auto* engine = findEngine<UniformGravity>(scene)) return engine->gravity;
-		const auto* other = findEngine<GravityEngine>(scene);
-		return other ? other->gravity : Vector3r(Vector3r::Zero());
-	}
 
 	/// [J]
 	Real kineticEnergy(const Scene& scene)

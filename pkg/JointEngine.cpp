@@ -29,6 +29,32 @@ namespace {
 				if (!j->broken[k]) visit(*j, k, forces[k], *b1->state, *b2->state);
 		}
 	}
+
+	constexpr Real samePoint = 1e-4; ///< distance below which two anchors are the same [m]
+
+	bool haveSameAnchors(const vector<Vector3r>& a, const vector<Vector3r>& b)
+	{
+		return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+		        [](const Vector3r& x, const Vector3r& y) { return (x - y).norm() < samePoint; });
+	}
+
+	bool haveSameBodies(const TimberJoint& a, const TimberJoint& b)
+	{
+		if (a.id1 == b.id1 && a.id2 == b.id2)
+			return haveSameAnchors(a.anchors1, b.anchors1) && haveSameAnchors(a.anchors2, b.anchors2);
+		return a.id1 == b.id2 && a.id2 == b.id1 && haveSameAnchors(a.anchors1, b.anchors2)
+		        && haveSameAnchors(a.anchors2, b.anchors1);
+	}
+
+	bool haveSameLaw(const TimberJoint& a, const TimberJoint& b)
+	{
+		return a.kn == b.kn && a.ks == b.ks && a.strength == b.strength && a.perJoint == b.perJoint
+		        && a.law == b.law && a.dampingRatio == b.dampingRatio
+		        && (!a.yields()
+		                || (a.softeningStretch == b.softeningStretch
+		                        && a.ultimateStretch == b.ultimateStretch
+		                        && a.frictionShare == b.frictionShare));
+	}
 }
 
 int JointEngine::append(const shared_ptr<TimberJoint>& joint)
@@ -39,6 +65,19 @@ int JointEngine::append(const shared_ptr<TimberJoint>& joint)
 	joint->validate();
 	joints.push_back(joint);
 	return int(joints.size()) - 1;
+}
+
+bool JointEngine::hasSame(const TimberJoint& joint) const
+{
+	return std::any_of(joints.begin(), joints.end(), [&](const shared_ptr<TimberJoint>& other) {
+		return !other->isBroken() && haveSameLaw(joint, *other) && haveSameBodies(joint, *other);
+	});
+}
+
+void JointEngine::breakJointsOf(Body::id_t id)
+{
+	for (const shared_ptr<TimberJoint>& joint : joints)
+		if (joint->id1 == id || joint->id2 == id) joint->breakAll();
 }
 
 boost::python::list JointEngine::pyJoints() const { return listOf(joints); }
@@ -72,7 +111,11 @@ void JointEngine::breakReplaced()
 
 void JointEngine::checkJoints() const
 {
-	std::set<const TimberJoint*> visited;
+	std::set<const TimberJoint*> visited, ofOthers;
+	for (const shared_ptr<Engine>& e : scene->engines)
+		if (const auto* other = dynamic_cast<const JointEngine*>(e.get()); other && other != this)
+			for (const shared_ptr<TimberJoint>& joint : other->joints)
+				ofOthers.insert(joint.get());
 	const auto refuse = [](size_t k, const string& fault) {
 		throw std::runtime_error("JointEngine.joints[" + std::to_string(k) + "]: " + fault);
 	};
@@ -80,6 +123,7 @@ void JointEngine::checkJoints() const
 	for (size_t k = 0; k < joints.size(); ++k) {
 		const TimberJoint& joint = *joints[k];
 		if (!visited.insert(&joint).second) refuse(k, "the same joint is in the list before");
+		if (ofOthers.count(&joint)) refuse(k, "the same joint is in another JointEngine of O.engines");
 		if (!isId(joint.id1) || !isId(joint.id2) || joint.id1 == joint.id2)
 			refuse(k,
 			        "id1 = " + std::to_string(joint.id1) + ", id2 = " + std::to_string(joint.id2)

@@ -57,7 +57,13 @@ public:
 	void action() override;
 	/// Whether no joint was added or changed since the last step.
 	bool areJointsCurrent() const { return packed->isCurrent && packed->joints.size() == joints.size(); }
+	/// Forces of the joints' springs on the bodies in the last step.
+	const BodyForces& forces() const { return sums; }
 	int append(const shared_ptr<TimberJoint>&);
+	/// Whether an unbroken joint with the same springs between the same bodies is there.
+	bool hasSame(const TimberJoint&) const;
+	/// Breaks the joints of a body that is erased: another one may get its id.
+	void breakJointsOf(Body::id_t);
 	boost::python::list pyJoints() const;
 	boost::python::list pyBreaks() const;
 	/// Forces of a joint's unbroken springs in the last step; zero before the first one.
@@ -85,6 +91,8 @@ public:
 		,
 		.def("append", &JointEngine::append, (boost::python::arg("joint")), "Adds a joint and returns its "
 			"index. [-]")
+		.def("hasSame", &JointEngine::hasSame, (boost::python::arg("joint")), "Whether an unbroken joint with "
+			"the same springs is there.")
 		.add_property("joints", &JointEngine::pyJoints, "List of all joints. [-]")
 		.add_property("breaks", &JointEngine::pyBreaks, "List of the springs that broke, in order, "
 			"without those that were set to broken or lost a body. [-]")

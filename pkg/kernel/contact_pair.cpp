@@ -38,15 +38,21 @@ namespace {
 		        relativeMotion<double>(point.position, input), input.h, input.form, record);
 	}
 
+	/// Overlap that the approach of the bodies in the last step explains. [m]
+	template <class Law> double approachAt(const Law& law, const ElasticInput& input, const ContactPoint& point)
+	{
+		const double speed
+		        = std::max(0., -relativeMotion<double>(point.position, input).velocity.dot(point.normal));
+		return approachOverlap(law, input.pair.mass, speed, input.h);
+	}
+
 	/// First step of a new point, with its initial overlap. available: energy released so far; returns the part of
 	/// it that the point takes. [J]
 	template <class Law>
 	double initialisePoint(const Law& law, const ElasticInput& input, const ContactPoint& point, double available,
 	        PointRecord& record)
 	{
-		const double speed
-		        = std::max(0., -relativeMotion<double>(point.position, input).velocity.dot(point.normal)),
-		        approach = approachOverlap(law, input.pair.mass, speed, input.h);
+		const double approach = approachAt(law, input, point);
 		const double initial = initialOverlap(law, point.overlap, approach, available);
 		record.excess = point.overlap - initial;
 		elasticPoint(law, input, point, record);
@@ -133,7 +139,9 @@ namespace {
 		for (size_t k = 0; k < next.size(); ++k) { // 2.
 			const bool isNew = !(next[k].id == points[k].id);
 			next[k].id = points[k].id;
-			if (isNew && input.placedInContact) placePoint(law, input, points[k], next[k]);
+			const bool isPlaced = isNew && input.placedInContact
+			        && points[k].overlap > approachAt(law, input, points[k]);
+			if (isPlaced) placePoint(law, input, points[k], next[k]);
 			else if (isNew) released -= initialisePoint(law, input, points[k], released, next[k]);
 			else elasticPoint(law, input, points[k], next[k]);
 		}
@@ -307,7 +315,7 @@ PairForce storeForces(ContactSolver& solver, size_t k, const PairProperties& pai
 	const SolverPair& solverPair = solver.pair(k);
 	const SolverBodies bodies = solver.bodiesOf(solverPair);
 	const double h = solver.stepLength();
-	Sums<9> impulses;
+	Sums<12> impulses;
 	Sums<5> sums(energies.dashpotNormal, energies.dashpotShear, energies.friction, energies.elasticNormal,
 	        energies.elasticShear);
 	inLanes(solverPair.count, [&](auto number, size_t i) {
@@ -324,7 +332,8 @@ PairForce storeForces(ContactSolver& solver, size_t k, const PairProperties& pai
 			p[c] = step.get(&PointStep::impulse, c);
 		}
 		const Vec impulse = p[0] * axes[0] + p[1] * axes[1] + p[2] * axes[2], force = impulse / Number(h);
-		impulses.add<Number>(count, impulse, Vec(-armA.cross(impulse)), Vec(armB.cross(impulse)));
+		impulses.add<Number>(count, impulse, Vec(-armA.cross(impulse)), Vec(armB.cross(impulse)),
+		        Vec(p[0] * axes[0]));
 		const Number e = record.get(&PointRecord::normalForce), K = record.get(&PointRecord::stiffness),
 		             n = record.get(&PointRecord::overlap), limit = Number(pair.friction) * (p[0] / Number(h)),
 		             none = 0.;
@@ -358,9 +367,9 @@ PairForce storeForces(ContactSolver& solver, size_t k, const PairProperties& pai
 		sums.add<Number>(count, normal.dissipated, dashpot, friction, normal.stored, tangential.stored);
 	});
 	energies = { sums[0], sums[1], sums[2], sums[3], sums[4] };
-	const PairForce impulse { impulses.vector(0), impulses.vector(3), impulses.vector(6) };
+	const PairForce impulse { impulses.vector(0), impulses.vector(3), impulses.vector(6), impulses.vector(9) };
 	followImpacts(solverPair, bodies, impulse, h);
-	return { impulse.onB / h, impulse.torqueA / h, impulse.torqueB / h };
+	return { impulse.onB / h, impulse.torqueA / h, impulse.torqueB / h, impulse.normalOnB / h };
 }
 
 } // namespace timber

@@ -20,8 +20,8 @@ struct ElasticInput {
 	BodyKinematics a, b;
 	double h; ///< length of the step [s]
 	NormalForm form = NormalForm::Closed;
-	/// The pair is new and its bodies were placed as they are: new points have their whole overlap, not
-	/// initialOverlap().
+	/// The pair is new and one of its bodies was placed as it is: new points have their whole overlap, not
+	/// initialOverlap(). Those whose approach in a step explains it begin an impact.
 	bool placedInContact = false;
 };
 
@@ -40,6 +40,7 @@ void prepareContacts(
 /// Total force and torques of a pair's points; each torque about the body's own centre. [N, N m]
 struct PairForce {
 	Vec3 onB = Vec3::Zero(), torqueA = Vec3::Zero(), torqueB = Vec3::Zero();
+	Vec3 normalOnB = Vec3::Zero(); ///< part of onB along the points' normals
 };
 
 /// Energies dissipated in a step, and those of the springs in the middle between its placement and the next one. [J]

@@ -71,7 +71,7 @@ def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strengt
     Raises
     ------
     ValueError
-        For unknown bodies, no points, and values out of range.
+        For unknown bodies, no points, values out of range, and a joint that is there already.
     """
     id1, id2 = arguments.present_ids("connect", id1, id2)
     if id1 == id2:
@@ -82,8 +82,11 @@ def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strengt
         arguments.instance("connect: slip", slip, SlipLaw, "a SlipLaw or None")
         numbers = {key: arguments.number(f"connect: slip.{key}", value) for key, value in vars(slip).items()}
         springs = replace(springs, law="slip", **numbers)
-    joint = make_joint(id1, id2, springs)
-    (find_engine(yw.JointEngine) or add_joint_engine()).append(joint)
+    joint, engine = make_joint(id1, id2, springs), find_engine(yw.JointEngine) or add_joint_engine()
+    if engine.hasSame(joint):
+        raise ValueError(f"connect: bodies {id1} and {id2} have the same joint at these points already: give another"
+                         " stiffness or strength to one joint")
+    engine.append(joint)
     return joint
 
 
