@@ -107,7 +107,10 @@ Mat6 SpringSteps::slope(const ModalStep& step, double kappa) const
 	Vec6 together = Vec6::Zero();
 	for (size_t i = 0; i < springs.size(); ++i) {
 		const SpringStep& s = springs[i];
-		matrix += s.rates.transpose() * meanTangent(states[i], s.force, s.stretch - s.from) * s.rates;
+		// With a shared strength the slope along one spring's way depends on the other springs
+		const Mat3 tangent = kappa > 0 ? Mat3(states[i].tangent / 2)
+		                               : meanTangent(states[i], s.force, s.stretch - s.from);
+		matrix += s.rates.transpose() * tangent * s.rates;
 		if (kappa > 0) together += s.rates.transpose() * shared[i];
 	}
 	matrix = step.h * step.h / 2 * (matrix - kappa / 2 * together * together.transpose());
@@ -143,7 +146,8 @@ Vec6 SpringSteps::impulse(const ModalStep& step, const Vec6& free, Vec6 after)
 		if (point.residual.squaredNorm() <= springTolerance * springTolerance * size) break;
 		if (!improve(step, free, after, point)) break;
 	}
-	return withinAccount(step, free, after - free);
+	// The law's impulse also where the method has not converged: within the strength
+	return withinAccount(step, free, after - free - point.residual);
 }
 
 /// Impulse whose springs return at most the account: (4).
