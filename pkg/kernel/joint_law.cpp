@@ -114,12 +114,17 @@ std::vector<SpringBreak> springBreaks(const JointStiffness& k, const JointStreng
 {
 	assert(limit.strength > 0 && isValid(k) && isValid(springs) && isUnit(normal) && motion.h > 0);
 	std::vector<SpringBreak> breaks;
+	double sum = 0;
+	for (const Vec3& force : springs.forces)
+		sum += force.norm();
 	for (size_t i = 0; i < springs.broken.size(); ++i) {
+		// Of the force at the placement: it breaks on the way
+		const double share = limit.strength / (limit.perJoint ? sum : springs.forces[i].norm());
 		const bool exceeds
 		        = limit.perJoint || springs.forces[i].squaredNorm() > limit.strength * limit.strength;
 		if (springs.broken[i] || !exceeds) continue;
 		SpringForce<double> f = springForce<double>(k, springs.stretches[i], placement.axesA * normal);
-		breaks.push_back({ i, breakCause(f), springs.forces[i].norm(),
+		breaks.push_back({ i, breakCause(f), share * springs.forces[i].norm(),
 		        energyAtBreak(f, placement.axesB * springs.anchorsB[i], motion) });
 	}
 	return breaks;
