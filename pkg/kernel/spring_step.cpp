@@ -94,7 +94,7 @@ double SpringSteps::tryStretches(double h, const Vec6& after)
 /// r of (3).
 Vec6 SpringSteps::residual(const ModalStep& step, const Vec6& free, const Vec6& after) const
 {
-	Vec6 r = after - free + step.decay.cwiseProduct(step.before + after) - applied;
+	Vec6 r = after - free + step.decay.cwiseProduct(step.before + after) + applied;
 	for (const SpringStep& s : springs)
 		r += step.h * s.rates.transpose() * s.force;
 	return r;
@@ -140,7 +140,7 @@ bool SpringSteps::improve(const ModalStep& step, const Vec6& free, Vec6& after, 
 Vec6 SpringSteps::impulse(const ModalStep& step, const Vec6& free, Vec6 after)
 {
 	const double kappa = tryStretches(step.h, after),
-	             size = (free + applied).squaredNorm() + free.squaredNorm() + step.before.squaredNorm();
+	             size = (free - applied).squaredNorm() + free.squaredNorm() + step.before.squaredNorm();
 	NewtonPoint point { residual(step, free, after), kappa };
 	for (int k = 0; k < springIterations; ++k) {
 		if (point.residual.squaredNorm() <= springTolerance * springTolerance * size) break;

@@ -14,7 +14,7 @@
 ///
 /// With the impulses -x (eta + eta') of the dashpots, E the modal velocity without impulses of the joint, and q_a the
 /// part of its spring impulses that E contains already, the velocity after the step is the root of
-///     r = eta' - E + x (eta + eta') + h sum G^T F - q_a                                           (3)
+///     r = eta' - E + x (eta + eta') + h sum G^T F + q_a                                           (3)
 /// which increases with eta' (forces do not fall): Newton's method with the matrix 1 + x + h2/4 sum G^T f' G, f' the
 /// tangents.
 ///
