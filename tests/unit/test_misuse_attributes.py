@@ -137,7 +137,7 @@ RESULTS = {
     "GroundMotionEngine": {"work"},
     "HouseMonitor": {"tiltTime", "collapseTime"},
     "JointBreak": {"time", "force"},
-    "JointEngine": {"released", "elastic", "yielded"},
+    "JointEngine": {"released", "elastic", "yielded", "created"},
 }
 """Attributes that the engines compute."""
 PAIRS = {"ManifoldPhys", *(phys for _, phys, _ in compiled.contact_laws())}
