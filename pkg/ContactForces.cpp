@@ -213,6 +213,7 @@ void ContactForces::sumResults()
 		dashpotNormal += result.energies.dashpotNormal;
 		dashpotShear += result.energies.dashpotShear;
 		friction += result.energies.friction;
+		crushing += result.energies.crushing;
 		elasticNormal += result.energies.elasticNormal;
 		elasticShear += result.energies.elasticShear;
 		inSolver.add(result.joints);

@@ -90,6 +90,7 @@ public:
 		((Real, dashpotNormal, 0, , "Energy dissipated by normal dashpots. [J]"))
 		((Real, dashpotShear, 0, , "Energy dissipated by tangential dashpots. [J]"))
 		((Real, friction, 0, , "Energy dissipated by sliding. [J]"))
+		((Real, crushing, 0, , "Energy dissipated by contacts at their bearing strength. [J]"))
 		((Real, jointDashpot, 0, , "Energy dissipated by the dashpots of joints. [J]"))
 		((Real, released, 0, , "Elastic energy released with loaded points that ceased to exist, minus the "
 			"energy given to new points. [J]"))

@@ -32,6 +32,7 @@ namespace {
 		phys.shearRatio = shearRatio;
 		phys.dampingRatio = dampingRatio;
 		phys.overlapLimit = shapeOf(b1).radius + shapeOf(b2).radius;
+		phys.bearingRadius = math::min(shapeOf(b1).radius, shapeOf(b2).radius);
 	}
 
 	/// Contact stiffness of an element of snow; infinite for timber (SceneCheck.cpp refuses pairs without snow).
@@ -83,6 +84,7 @@ namespace {
 			return boundsOverlap(b1, b2);
 		}
 		phys.power = Law::power;
+		phys.strength = timber::bearingStrength(phys.bearing, phys.bearingRadius, geom.contactPoints);
 		const timber::PairProperties pair = phys.properties();
 		const bool placed = phys.records.empty() && (wasPlaced(*scene, b1) || wasPlaced(*scene, b2));
 		phys.releasedEnergy = timber::elasticPair(law,
@@ -123,6 +125,8 @@ void ManifoldPhys::validate() const
 	requirePositive("ManifoldPhys.shearRatio", shearRatio);
 	requireNonNegative("ManifoldPhys.dampingRatio", dampingRatio);
 	requirePositive("ManifoldPhys.overlapLimit", overlapLimit);
+	require(bearing > 0, "ManifoldPhys.bearing", bearing, "> 0");
+	requireNonNegative("ManifoldPhys.bearingRadius", bearingRadius);
 }
 
 void TimberPhys::validate() const
@@ -163,8 +167,11 @@ void Ip2_TimberMat_TimberMat_TimberPhys::go(
 	const TimberMat &t1 = *static_cast<TimberMat*>(m1.get()), &t2 = *static_cast<TimberMat*>(m2.get());
 	const Body &b1 = *Body::byId(I->getId1(), scene), &b2 = *Body::byId(I->getId2(), scene);
 	TimberPhys& phys = updatePhys<TimberPhys>(*I, b1, b2);
-	if (!haveChanged(phys, { t1.friction, t1.young, t1.poisson, t2.friction, t2.young, t2.poisson, dampingRatio }))
+	if (!haveChanged(phys,
+	            { t1.friction, t1.young, t1.poisson, t1.bearing, t2.friction, t2.young, t2.poisson, t2.bearing,
+	                    dampingRatio }))
 		return;
+	phys.bearing = math::min(t1.bearing, t2.bearing);
 	const Real poisson = (t1.poisson + t2.poisson) / 2;
 	setProperties(phys, b1, b2, t1.friction, t2.friction, 1 / (2 * (1 + poisson)), dampingRatio);
 	phys.modulus = timber::equivalentModulus(t1.young, t1.poisson, t2.young, t2.poisson);

@@ -15,8 +15,8 @@ namespace serialization {
 	}
 	template <class Archive> void serialize(Archive& ar, timber::PointHistory& p, const unsigned int)
 	{
-		ar& make_nvp("id", p.id.bits) & make_nvp("excess", p.excess) & make_nvp("overlap", p.overlap)
-		        & make_nvp("stiffness", p.stiffness);
+		ar& make_nvp("id", p.id.bits) & make_nvp("excess", p.excess) & make_nvp("crushed", p.crushed)
+		        & make_nvp("overlap", p.overlap) & make_nvp("stiffness", p.stiffness);
 		ar& make_nvp("normal", p.normalForce) & make_nvp("energy", p.energy) & make_nvp("shear", p.shearForce)
 		        & make_nvp("dashpot", p.dashpotForce) & make_nvp("normalStored", p.normalStored)
 		        & make_nvp("shearStored", p.shearStored) & make_nvp("impact", p.impact);
@@ -38,11 +38,12 @@ public:
 	void validate() const;
 	/// Of bodies that were placed in contact, in this step only: of all springs [J], of the deepest point [m]
 	Real placedEnergy = 0, placedOverlap = 0;
+	timber::BearingStrength strength; ///< of each point, in this step
 	/// No contact points, and no energy released in the last step.
 	bool isIdle() const { return records.empty() && releasedEnergy == 0; }
 	timber::PairProperties properties() const
 	{
-		return { mass, friction, shearRatio, overlapLimit, dampingRatio, power };
+		return { mass, friction, shearRatio, overlapLimit, dampingRatio, power, strength };
 	}
 	/// Contact points as tuples, see ``yade_timber.contacts``.
 	boost::python::list pyPoints() const;
@@ -57,6 +58,9 @@ public:
 			"(paper, Eqs. 41-42: 1)"))
 		((Real, overlapLimit, NaN, Attr::triggerPostLoad, "Overlap beyond which the normal force is constant: "
 			"the cores touch. [m]"))
+		((Real, bearing, std::numeric_limits<Real>::infinity(), Attr::triggerPostLoad, "Bearing strength of "
+			"the weaker material; infinite: elastic. [Pa]"))
+		((Real, bearingRadius, 0, Attr::triggerPostLoad, "Smaller rounding radius of the two elements. [m]"))
 		((Real, power, timber::HertzLaw::power, Attr::readonly, "Exponent of the contact law. [-]"))
 		((vector<timber::PointRecord>, records, , Attr::hidden, "History of the contact points, sorted by "
 			"feature id. [-]"))

@@ -84,6 +84,7 @@ namespace {
 		{ "dashpot_normal", [](Sources s) { return s.contacts ? s.contacts->dashpotNormal : 0; } },
 		{ "dashpot_shear", [](Sources s) { return s.contacts ? s.contacts->dashpotShear : 0; } },
 		{ "friction", [](Sources s) { return s.contacts ? s.contacts->friction : 0; } },
+		{ "crushing", [](Sources s) { return s.contacts ? s.contacts->crushing : 0; } },
 		{ "broken_springs", [](Sources s) { return s.joints ? s.joints->released : 0; } },
 		{ "lost_contacts", [](Sources s) { return s.contacts ? s.contacts->released : 0; } },
 		{ "joint_dashpot", [](Sources s) { return s.contacts ? s.contacts->jointDashpot : 0; } },

@@ -147,6 +147,18 @@ constexpr double impactLoadShare = 1;
 /// their impulses move from one point to another by 1e-4 a sweep.
 constexpr double reboundSoftness = 0.02;
 
+/// Most iterations of Newton's method for the elastic part of the overlap of a crushed contact [-], and the relative
+/// change that ends them [-]. Ten suffice where the overlap is a hundredfold of the elastic one.
+constexpr int yieldSteps = 40;
+constexpr double yieldTolerance = 1e-13;
+
+/// Steps of the Runge-Kutta method for the loading of an impact up to the strength. [-] The error of the velocity of
+/// separation is below 1e-3 of it.
+constexpr int crushingSteps = 64;
+
+/// Rounding error of the strength of a contact. [-] What a point at its strength dissipates has been crushed.
+constexpr double strengthRounding = 1e-9;
+
 /// Sweeps over the pairs between two over the joints while pairs still change. [-] Larger: light members between stiff
 /// joints and contacts converge slowly; smaller: longer sweeps.
 constexpr int jointInterval = 4;

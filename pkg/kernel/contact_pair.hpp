@@ -7,7 +7,8 @@
 /// Account of a spring (PointHistory::normalStored, shearStored), between two placements: a step adds the work -p (v +
 /// v') / 2 that the bodies do on the point with the impulse p of spring and dashpot. What exceeds the energy of the law
 /// there has been dissipated. Rule (5) of the solver keeps the accounts from going below zero but for errors of the
-/// sweeps, which later work settles. No dissipation is negative.
+/// sweeps, which later work settles. No dissipation is negative. The normal spring has at most the energy at its
+/// strength; what a point at its strength dissipates is crushing.
 #pragma once
 #include "contact_law.hpp"
 #include "contact_solver.hpp"
@@ -47,6 +48,7 @@ struct PairForce {
 struct PairEnergies {
 	double dashpotNormal = 0, dashpotShear = 0, friction = 0;
 	double elasticNormal = 0, elasticShear = 0;
+	double crushing = 0; ///< dissipated by points at their strength
 };
 
 /// Stores forces, history and energies of the points of the k-th pair. energies: added to.

@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The entry `law` of a house file decides the engines."""
+import math
+
 import pytest
 import yade.wrapper as yw
 from yade import O
 from yade_timber.base.gravity import GRAVITY
 from yade_timber.house import friction
+from yade_timber.house.errors import HouseError
 from yade_timber.run.identity import identity, made_from
 from yade_timber.run.options import RunOptions
 from yade_timber.scene import engines, scenario
@@ -48,6 +51,22 @@ def test_flush_members_have_fewer_supports_without_them(tmp_path):
 
 def test_increment_form(tmp_path):
     assert built(tmp_path, "{hertz: increment}")[1].increment
+
+
+@pytest.mark.parametrize("entry, strength", [("{}", 6e6), ("{bearing: false}", math.inf), ("{bearing: 8.0e6}", 8e6)])
+def test_bearing_strength(tmp_path, entry, strength):
+    """Of all timber; no house yields at rest."""
+    built(tmp_path, entry)
+    timber = {body.material.bearing for body in O.bodies if isinstance(body.material, yw.TimberMat)}
+    assert timber == {strength}
+    O.run(200, True)
+    assert engines.find_engine(yw.ContactForces).crushing == 0
+
+
+@pytest.mark.parametrize("entry", ["true", "0", "yes please", "7.8"])
+def test_bearing_strength_that_is_none(tmp_path, entry):
+    with pytest.raises(HouseError, match="bearing: .*(or false|Pa)"):
+        built(tmp_path, f"{{bearing: {entry}}}")
 
 
 def test_loads_are_mass_of_the_bodies(tmp_path):

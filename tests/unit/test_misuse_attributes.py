@@ -42,6 +42,8 @@ REFUSED = [
     ("TimberMat", "density", 0.0),
     ("TimberMat", "young", -5.0),
     ("TimberMat", "poisson", 9.0),
+    ("TimberMat", "bearing", 0.0),
+    ("TimberMat", "bearing", NAN),
     ("SnowMat", "stiffnessPerMass", 0.0),
     ("UniformGravity", "gravity", Vector3(0, 0, NAN)),
     ("UniformGravity", "gravity", 9.81),

@@ -189,7 +189,7 @@ def draw_modes(axis, results):
 
 def draw_energy(axis, results):
     energy = results.summary.energy
-    terms = [term for term in DISSIPATED if energy.dissipated[term.name]]
+    terms = [term for term in DISSIPATED if energy.dissipated.get(term.name)]
     values = [energy.dissipated[term.name] / 1e3 for term in terms]
     axis.barh([term.label for term in terms], values, color=[term.color for term in terms], height=0.7)
     axis.invert_yaxis()

@@ -34,7 +34,8 @@ def export_scene(path):
     ``elements``: id, name, kind, vertices (n, 3) world [m], faces (lists of vertex indices, outward), density (mass
     over volume) [kg/m3], radius [m], fixed, material.
 
-    ``materials``: name to law, density, young [Pa] and poisson, or stiffness_per_kg [N/m/kg]. ``friction``: name, name,
+    ``materials``: name to law, density, young [Pa], poisson and, if finite, bearing [Pa], or stiffness_per_kg
+    [N/m/kg]. ``friction``: name, name,
     coefficient.
 
     ``joints``: elements (ids), points (n, 3) world [m], normal (from the first to the second), stiffness (kn, ks)
@@ -67,7 +68,8 @@ def describe_material(material):
     common = {"density": material.density, "friction": material.friction}
     if isinstance(material, yw.SnowMat):
         return {"law": "snow", "stiffness_per_kg": material.stiffnessPerMass, **common}
-    return {"law": "timber", "young": material.young, "poisson": material.poisson, **common}
+    bearing = {"bearing": material.bearing} if math.isfinite(material.bearing) else {}
+    return {"law": "timber", "young": material.young, "poisson": material.poisson, **bearing, **common}
 
 
 def material_name(material, materials):

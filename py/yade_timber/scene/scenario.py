@@ -106,7 +106,8 @@ def make_material(name, spec, model):
     friction = own_coefficient(name, spec["law"], model.friction)
     if spec["law"] == "snow":
         return bodies.snow(spec["density"], spec["stiffness_per_kg"], friction, label=name)
-    return bodies.timber(spec["young"], spec["poisson"], spec["density"], friction, label=name)
+    return bodies.timber(spec["young"], spec["poisson"], spec["density"], friction, label=name,
+                         bearing=model.law["bearing"] or None)
 
 
 def add_joints(model, ids):
