@@ -39,6 +39,7 @@ namespace {
 		        { "CollisionTrigger", "Collider" } },
 		{ "a contact loop (ContactLoop)", Role::contacts, Role::required,
 		        { "ContactLoop", "InteractionLoop" } },
+		{ "OverlapCheck", Role::forces, Role::optional, { "OverlapCheck" } },
 		{ "JointEngine", Role::forces, Role::optional, { "JointEngine" } },
 		{ "gravity", Role::forces, Role::optional, { "UniformGravity", "GravityEngine" } },
 		{ "GroundMotionEngine", Role::forces, Role::optional, { "GroundMotionEngine" } },

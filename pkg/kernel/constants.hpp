@@ -45,9 +45,38 @@ constexpr double roundingShare = 1e-11;
 /// about flush contacts.
 constexpr double flushTolerance = 1e-4;
 
-/// Edges are parallel, and have no crossing point, if the sine of their angle is smaller than this. [-]
+/// Upper limit of the flush tolerance as a share of the contact distance of a pair. [-] It concerns bodies of some
+/// centimetres and less, whose rounding radii are not large against flushTolerance.
+/// Larger: the distances of small bodies are less accurate; smaller: rounding errors of pairs far from the origin decide
+/// about flush contacts.
+constexpr double flushShare = 0.02;
+
+/// Rounding errors of lengths in a pair. [m] A closest point beyond the end of an edge by less than this is on it.
+/// Larger: distances of vertices from edges are those from points beyond their ends; smaller: no feature is closest.
+constexpr double roundingLength = 1e-9;
+
+/// Edges are parallel, and have no crossing point, if the sine of their angle is smaller than this and vertex-edge
+/// contacts are off. [-]
 /// Larger: crossings are lost; smaller: the crossing of nearly parallel edges jumps along them.
 constexpr double parallelSine = 5e-3;
+
+/// The same with vertex-edge contacts: the ends of the edges carry. [-] The distance of edges of 1 m that cross at this
+/// angle is that of their ends to 1e-11 m.
+/// Larger: the ends of long edges are farther from each other than the edges; smaller: rounding decides where they cross.
+constexpr double smallestSine = 1e-6;
+
+/// Sine of the angle between two edges below which the ends of both have contacts, as the vertices of flush faces have.
+/// [-] Larger: more points; smaller: the ends lose their points while these carry a load.
+constexpr double lineSine = 0.05;
+
+/// Points that coincide within twice the flush tolerance are one if the second is not deeper than the first by more than
+/// this share of it. [-] Larger: overlaps are less accurate; smaller: two points at coincident corners of tilted faces.
+constexpr double duplicateShare = 1e-3;
+
+/// Minimum cosine between the normals of a point and of the one that it continues with other features. [-] Normals turn
+/// with the bodies by less in a step.
+/// Larger: springs are lost where features change; smaller: a spring acts in another direction after the change.
+constexpr double successionCosine = 0.9;
 
 /// Overlapping cores: minimum cosine between the normal of a contact point and the axis of least overlap. [-]
 /// Larger: fewer points, or the single point of the cores instead; smaller: points with normals across the axis, which

@@ -124,27 +124,47 @@ namespace {
 		});
 	}
 
-	/// Elastic step when features have changed: 1. move the records of persistent features and sum the energy of
-	/// the others, which do not act any more; 2. step all points. New ones take over the largest plastic overlap of
-	/// the others: a member that slides keeps its dent. Returns the energy released minus that given to new points.
-	/// [J]
+	/// The record that a point continues with other features; null: none.
+	const PointRecord* predecessorOf(const ContactPoint& point, const Records& records)
+	{
+		if (point.predecessor == FeatureId()) return nullptr;
+		const auto at = std::find_if(records.begin(), records.end(),
+		        [&](const PointRecord& r) { return r.id == point.predecessor; });
+		return at != records.end() ? &*at : nullptr;
+	}
+
+	bool isContinued(const PointRecord& record, const Points& points)
+	{
+		return std::any_of(points.begin(), points.end(),
+		        [&](const ContactPoint& p) { return p.predecessor == record.id; });
+	}
+
+	/// Elastic step when features have changed: 1. move the records of persistent features, and of points that
+	/// continue others, and sum the energy of the rest, which do not act any more; 2. step all points. New ones take
+	/// over the largest plastic overlap of the rest: a member that slides keeps its dent. Returns the energy released
+	/// minus that given to new points. [J]
 	template <class Law>
 	double stepChangedFeatures(const Law& law, const ElasticInput& input, const Points& points, Records& records)
 	{
 		Records next(points.size());
 		double released = 0, crushed = 0;
-		const auto remove = [&](const PointRecord& record) {
-			released += record.normalStored + record.shearStored;
-			crushed = std::max(crushed, record.crushed);
+		const auto release = [&](const PointRecord& r) {
+			if (isContinued(r, points)) return;
+			released += r.normalStored + r.shearStored;
+			crushed = std::max(crushed, r.crushed);
 		};
 		auto old = records.begin();
 		for (size_t k = 0; k < next.size(); ++k) { // 1.
 			for (; old != records.end() && old->id < points[k].id; ++old)
-				remove(*old);
+				release(*old);
 			if (old != records.end() && old->id == points[k].id) next[k] = *old++;
+			else if (const PointRecord* r = predecessorOf(points[k], records)) {
+				next[k] = *r;
+				next[k].id = points[k].id;
+			}
 		}
 		for (; old != records.end(); ++old)
-			remove(*old);
+			release(*old);
 		for (size_t k = 0; k < next.size(); ++k) { // 2.
 			const bool isNew = !(next[k].id == points[k].id);
 			next[k].id = points[k].id;

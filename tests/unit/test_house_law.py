@@ -32,11 +32,17 @@ def test_default_friction():
 
 def test_defaults(tmp_path):
     geometry, law, _, _ = built(tmp_path, "{}")
-    assert (geometry.flushSupports, geometry.vertexEdge, law.increment) == (True, False, False)
+    assert (geometry.flushSupports, geometry.vertexEdge, law.increment) == (True, True, False)
+
+
+def test_the_houses_of_the_paper_keep_its_contacts():
+    for model, extra in (("A", False), ("C2", False), ("storehouse", True)):
+        scenario.build(scenario.Scenario("law", model))
+        assert engines.find_engine(yw.ContactLoop).loop.geomDispatcher.functors[0].vertexEdge == extra
 
 
 @pytest.mark.parametrize("entry, attribute", [("flush_supports: false", "flushSupports"),
-                                              ("vertex_edge_contacts: true", "vertexEdge")])
+                                              ("vertex_edge_contacts: false", "vertexEdge")])
 def test_contact_patterns(tmp_path, entry, attribute):
     """The identity differs, so a checkpoint of one variant is refused by a run of the other."""
     plain, _, _, one = built(tmp_path, "{}")

@@ -131,7 +131,7 @@ HOUSE = Record({
     "friction": ListOf(Record({"between": ListOf(word(), 2), "coefficient": Number("", 0.0, 2.0)})),
     "law": Record({"joint_reading": Choice(("spring", "joint"), "joint"),
                    "joint_damping": Number("", 0.0, 1.0, default=0.0), "wall_level": Choice(WALL_LEVELS, "mean"),
-                   "vertex_edge_contacts": Flag(False), "flush_supports": Flag(True),
+                   "vertex_edge_contacts": Flag(True), "flush_supports": Flag(True),
                    "hertz": Choice(("closed", "increment"), "closed"),
                    "bearing": Number("Pa", 1e5, 1e9, off=True, default=6e6)}, default={}),
     "ground": Record({"size": length(1.0, 1000.0), "thickness": length(0.05, 100.0), "material": word("timber")}),

@@ -29,7 +29,8 @@ Record = table("Record", source=str, pga_gal=Components, scale=float, dt=float, 
 Columns = table("Columns", total=int, fallen=int, loose=int)
 Energy = table("Energy", input=float, kinetic=float, elastic=float, dissipated=dict[str, float], created=float | None,
                residual=float, residual_fraction=float | None, ground_motion=float, gravity_released=float)
-Solver = table("Solver", sweeps_mean=float, sweeps_max=int, unconverged_steps=int, worst_change_j=float)
+Solver = table("Solver", sweeps_mean=float, sweeps_max=int, unconverged_steps=int, worst_change_j=float,
+               uncarried_overlap_m=optional(float))
 Versions = table("Versions", yade=str, package=str)
 Mode = table("Mode", period_s=float | None, direction=str, mass_share=Components, shape=dict[str, Components])
 ModesAt = table("ModesAt", time_s=float, modes=list[Mode])

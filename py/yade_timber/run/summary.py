@@ -119,12 +119,14 @@ def energy_balance(terms, created):
 
 def solver():
     """The part `solver`: sweeps of a computed step, mean and largest; steps that ended before their sweeps had
-    converged, and the largest change of a pair in the last sweep of one, as twice its kinetic energy [J]."""
+    converged, and the largest change of a pair in the last sweep of one, as twice its kinetic energy [J]; the
+    largest overlap that no contact carried [m]."""
     forces, skipper = find_engine(yw.ContactForces), find_engine(yw.RestSkipper)
+    check = find_engine(yw.OverlapCheck)
     computed = O.iter - (round(skipper.skipped / O.dt) if skipper else 0)
     mean = round(forces.sweepsDone / max(1, computed), 3)
     return Solver(sweeps_mean=mean, sweeps_max=forces.sweepsMax, unconverged_steps=forces.unconverged,
-                  worst_change_j=forces.worstChange)
+                  worst_change_j=forces.worstChange, uncarried_overlap_m=check.largest if check else None)
 
 
 def created_too_much(energy):
