@@ -111,7 +111,7 @@ void ContactForces::findIslands()
 		return p.points > 0 ? timber::Link(end(p.id1), end(p.id2)) : timber::noLink;
 	});
 	std::transform(joints.begin(), joints.end(), links.begin() + pairs.size(),
-	        [&](const TimberJoint* j) { return timber::Link(end(j->id1), end(j->id2)); });
+	        [&](const ImplicitJoint& j) { return timber::Link(end(j.joint->id1), end(j.joint->id2)); });
 	islands.find(bodies.size(), links);
 }
 
@@ -138,7 +138,8 @@ ContactForces::IslandResult ContactForces::solveIsland(timber::Islands::Island i
 	const int count = int(island.size()),
 	          pairCount = int(std::lower_bound(island.begin(), island.end(), int(pairs.size())) - island.begin());
 	const auto pair = [&](int k) -> const ContactPair& { return pairs[island[k]]; };
-	const auto joint = [&](int k) -> TimberJoint& { return *joints[island[k] - int(pairs.size())]; };
+	const auto implicit = [&](int k) -> const ImplicitJoint& { return joints[island[k] - int(pairs.size())]; };
+	const auto joint = [&](int k) -> TimberJoint& { return *implicit(k).joint; };
 	solver.begin(bodies, scene->dt, sweeps);
 	for (int k = 0; k < pairCount; ++k)
 		solver.addPair(pair(k).id1, pair(k).id2, pair(k).phys->records.data(), pair(k).points);
@@ -147,7 +148,7 @@ ContactForces::IslandResult ContactForces::solveIsland(timber::Islands::Island i
 	timber::forAll(count, [&](int k) {
 		if (k < pairCount)
 			timber::prepareContacts(solver, k, pair(k).phys->properties(), pair(k).geom->contactPoints);
-		else prepareJoint(solver, k - pairCount, joint(k), *scene);
+		else prepareJoint(solver, k - pairCount, implicit(k), *scene);
 	});
 	result.convergence = solver.solve(tolerance);
 	for (int k = 0; k < pairCount; ++k)
@@ -243,6 +244,27 @@ std::vector<timber::PointSpring> ContactForces::linearSprings(
 		}
 	if (const JointEngine* joints = findEngine<JointEngine>(scene)) joints->addSprings(scene, springs);
 	return springs;
+}
+
+Real ContactForces::dashpotPower(const Scene& scene, const std::vector<timber::SolverBody>& bodies)
+{
+	std::vector<ContactPair> contacts;
+	findPairs(scene, contacts);
+	Real power = yade::dashpotPower(scene, bodies);
+	for (const ContactPair& pair : contacts) {
+		const timber::SolverBody &a = bodies[pair.id1], &b = bodies[pair.id2];
+		const timber::PairProperties properties = pair.phys->properties();
+		for (size_t k = 0; k < pair.points; ++k) {
+			const timber::ContactPoint& at = pair.geom->contactPoints[k];
+			const Vector3r u = timber::relativeVelocity<double>(at.position - a.position,
+			        at.position - b.position, a.velocity, a.spin, b.velocity, b.spin);
+			const Real along = u.dot(at.normal),
+			           cn = timber::normalDamping<double>(properties, pair.phys->records[k].stiffness),
+			           cs = timber::shearDamping<double>(properties, cn);
+			power += cn * along * along + cs * (u.squaredNorm() - along * along);
+		}
+	}
+	return power;
 }
 
 Real ContactForces::largestEigenvalue() const

@@ -20,34 +20,52 @@ namespace {
 	bool isImplicit(
 	        TimberJoint& joint, const Scene& scene, const std::vector<timber::SolverBody>& bodies, bool alsoStiff)
 	{
-		if ((joint.dampingRatio == 0 && !alsoStiff) || joint.isBroken() || joint.id1 == joint.id2) return false;
+		if ((!joint.isDamped() && !alsoStiff) || joint.isBroken() || joint.id1 == joint.id2) return false;
 		const Body *b1 = bodyAt(scene, joint.id1), *b2 = bodyAt(scene, joint.id2);
 		if (!b1 || !b2) return false;
 		const timber::SolverBody &a = bodies[joint.id1], &b = bodies[joint.id2];
 		if (timber::pairInverseMass(a, b) == 0) return false;
 		updateModes(joint, b1->state->ori, b2->state->ori, a, b);
-		return joint.dampingRatio > 0 || joint.modes.isStiff(scene.dt);
+		return joint.isDamped() || joint.modes.isStiff(scene.dt);
 	}
 }
 
 void findImplicitJoints(const Scene& scene, const std::vector<timber::SolverBody>& bodies, bool alsoStiff,
-        std::vector<TimberJoint*>& implicit, JointEnergies& energies)
+        std::vector<ImplicitJoint>& implicit, JointEnergies& energies)
 {
 	implicit.clear();
 	const JointEngine* engine = findEngine<JointEngine>(scene);
 	if (!engine) return;
-	for (const shared_ptr<TimberJoint>& joint : engine->joints)
-		if (isImplicit(*joint, scene, bodies, alsoStiff)) implicit.push_back(joint.get());
+	for (size_t k = 0; k < engine->joints.size(); ++k) {
+		TimberJoint& joint = *engine->joints[k];
+		if (isImplicit(joint, scene, bodies, alsoStiff))
+			implicit.push_back({ &joint, engine->lastForce(k).tangent });
 		else {
-			const Real energy = joint->newmarkEnergy;
-			joint->setNewmark({});
+			const Real energy = joint.newmarkEnergy;
+			joint.setNewmark({});
 			(energy > 0 ? energies.dissipated : energies.created) += math::abs(energy);
 		}
+	}
 }
 
-void prepareJoint(timber::ContactSolver& solver, size_t k, TimberJoint& joint, const Scene& scene)
+Real dashpotPower(const Scene& scene, const std::vector<timber::SolverBody>& bodies)
 {
-	solver.prepareJoint(k, joint.modes, axesOf(scene, joint.id1), joint.dampingRatio, joint.newmark());
+	const JointEngine* engine = findEngine<JointEngine>(scene);
+	Real power = 0;
+	for (size_t k = 0; engine && k < engine->joints.size(); ++k) {
+		TimberJoint& joint = *engine->joints[k];
+		if (isImplicit(joint, scene, bodies, false))
+			power += timber::dashpotPower(bodies[joint.id1], bodies[joint.id2], joint.modes,
+			        axesOf(scene, joint.id1), joint.damping(engine->lastForce(k).tangent));
+	}
+	return power;
+}
+
+void prepareJoint(timber::ContactSolver& solver, size_t k, const ImplicitJoint& implicit, const Scene& scene)
+{
+	const TimberJoint& joint = *implicit.joint;
+	solver.prepareJoint(
+	        k, joint.modes, axesOf(scene, joint.id1), joint.damping(implicit.tangent), joint.newmark());
 }
 
 timber::PairForce storeJoint(

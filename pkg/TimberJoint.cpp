@@ -37,6 +37,7 @@ void TimberJoint::validate() const
 	if (hasSprings || !std::isnan(ks)) requireNonNegative("TimberJoint.ks", ks);
 	requireGiven(hasSprings, "TimberJoint.strength", strength, true);
 	require(dampingRatio >= 0 && dampingRatio <= 1, "TimberJoint.dampingRatio", dampingRatio, "between 0 and 1");
+	requireNonNegative("TimberJoint.dampingTime", dampingTime);
 	require(math::abs(normal.squaredNorm() - 1) < 1e-9, "TimberJoint.normal", normal.transpose(), "of length 1");
 	requireAnchors("TimberJoint.anchors1", anchors1);
 	requireAnchors("TimberJoint.anchors2", anchors2);

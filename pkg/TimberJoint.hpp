@@ -57,6 +57,12 @@ public:
 	const Vector3r& centre2() const { return mean2; }
 	size_t intactSprings() const { return intact; }
 	bool isBroken() const { return intact == 0; }
+	bool isDamped() const { return dampingRatio > 0 || dampingTime > 0; }
+	/// Dashpots at a tangent stiffness of the unbroken springs over their initial one. [-]
+	timber::JointDamping damping(Real tangent) const
+	{
+		return { dampingRatio, dampingTime, initialDamping ? 1 : tangent };
+	}
 	/// Largest spring force over the strength; perJoint: sum of the spring forces over the strength. [-]
 	Real load() const;
 	/// Of a joint with these forces.
@@ -124,6 +130,10 @@ public:
 			"softeningStretch to ultimateStretch. [m, N]"))
 		((Real, dampingRatio, 0, Attr::triggerPostLoad, "Damping ratio of each vibration mode of the two "
 			"bodies, if they were connected by the unbroken springs and free otherwise, in [0, 1]. [-]"))
+		((Real, dampingTime, 0, Attr::triggerPostLoad, "Damping coefficient of the dashpots at the springs over "
+			"their tangent stiffness, of a house that which gives its sway the stated damping ratio. [s]"))
+		((bool, initialDamping, false, Attr::triggerPostLoad, "Whether dashpots keep the initial stiffness of "
+			"unbroken springs that have yielded, in place of the tangent stiffness. [-]"))
 		((string, kind, , , "Kind of the joint: column_beam, brace_beam, ... [-]"))
 		((string, name, , , "Name of the joint, for reports. [-]"))
 		((vector<int>, broken, , Attr::triggerPostLoad, "1 for each broken spring, else 0. [-]"))

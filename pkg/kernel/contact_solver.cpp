@@ -74,11 +74,11 @@ size_t ContactSolver::addJoint(int bodyA, int bodyB)
 }
 
 void ContactSolver::prepareJoint(
-        size_t k, const JointModes& modes, const Mat3& axesA, double ratio, const NewmarkHistory& history)
+        size_t k, const JointModes& modes, const Mat3& axesA, const JointDamping& damping, const NewmarkHistory& history)
 {
 	assert(k < joints.size());
 	timber::prepareModes(
-	        joints[k], (*bodies)[joints[k].bodyA], (*bodies)[joints[k].bodyB], modes, axesA, ratio, h, history);
+	        joints[k], (*bodies)[joints[k].bodyA], (*bodies)[joints[k].bodyB], modes, axesA, damping, h, history);
 }
 
 template <class Number> void ContactSolver::prepare(size_t k, size_t first, const StepInput<Number>& data)

@@ -10,15 +10,18 @@
 /// frequencies omega_k, with
 ///     Z^T R Z = 1,   K = Z omega^2 Z^T                                                          (1)
 /// The damping matrix D = 2 zeta Z omega Z^T gives each mode the damping ratio zeta, rotations of a slender member
-/// about its end included.
+/// about its end included. D = tau K is that of springs with dashpots of tau times their stiffness; motions to which
+/// further masses contribute, as the sway of a house, have the ratio tau omega_1 / 2 at their own frequency omega_1.
+/// Springs that have yielded have the tangent stiffness kappa K, modes of the frequency kappa^1/2 omega:
+///     D = Z (2 zeta kappa^1/2 omega + tau kappa omega^2) Z^T                                    (1a)
 /// (Dashpots at the points of the springs, C = 2 zeta sqrt(m K), would damp these rotations some thirty times less.)
 /// About the centroid of the springs' ends, translation and rotation are uncoupled: K is block diagonal.
 ///
 /// Impulse of a step h: P = -h D (w + w') / 2, w before and w' after the step: second order, stable at any zeta h, and
 /// the dissipated energy h (w + w')^T D (w + w') / 4 is never negative. Newmark's term adds -beta h2 K (w' - w), as a
 /// mass beta h2 K would. In terms of the modes, P = Z q, eta = Z^T w, these are six scalars:
-///     q = -x (eta + eta') - (g eta' - m),   x = h zeta omega,   g = beta y,   beta = y / (4 y + 2),   y = (h omega)2
-///                                                                                           (2)
+///     q = -x (eta + eta') - (g eta' - m),   g = beta y,   beta = y / (4 y + 2),   y = (h omega)2
+///     x = h (zeta kappa^1/2 omega + tau kappa omega^2 / 2)                                      (2)
 /// with beta = 0 for modes that the step resolves, h omega <= stiffPhase. The mass has the momentum m = g eta of the
 /// step before, 0 for a new joint: velocities that are imposed between steps are those of the bodies alone. (With g eta
 /// of the present velocity, an imposed one stretches a stiff spring by h omega times its exact amplitude.) The mass of
@@ -42,11 +45,13 @@
 ///     m        momentum      of Newmark's term [kg^1/2 m/s]
 ///     N        stored        account of Newmark's term [J]
 ///     K        stiffness     of the unbroken springs about the centre [N/m, N m]
+///     kappa    tangent       tangent stiffness over K, 0 to 1 [-]
 ///     omega    frequency     angular, of a mode [rad/s]
 ///     P        impulse       on B at the joint's centre [N s, N m s]
 ///     q, q0    modal impulse after and before a visit [kg^1/2 m/s]
 ///     R        response      of w to P [1/kg, 1/(kg m), 1/(kg m2)]
 ///     s        share         of the modal impulse of a joint that is infinitely damped [-]
+///     tau      time          of the dashpots: damping coefficient over stiffness [s]
 ///     w, u     twist         velocity and spin of B relative to A at the joint's centre: before the step, current
 ///                            [m/s, rad/s]
 ///     x        decay         decay rate of the mode times h [-]
@@ -105,11 +110,27 @@ struct JointModes {
 JointModes jointModes(const SolverBody& a, const SolverBody& b, const Mat3& axesA, const SpringGroup& springs,
         const JointState& state);
 
+/// Dashpots of a joint in a step.
+struct JointDamping {
+	double ratio; ///< zeta
+	double time = 0; ///< tau
+	double tangent = 1; ///< kappa
+	/// D for (1a) in a mode of frequency omega. [1/s]
+	double of(double omega) const
+	{
+		return 2 * ratio * std::sqrt(tangent) * omega + time * tangent * omega * omega;
+	}
+};
+
 /// Newmark's term of a joint from step to step.
 struct NewmarkHistory {
 	double stored = 0; ///< N [J]
 	Vec3 linear = Vec3::Zero(), angular = Vec3::Zero(); ///< Z m, in the axes of A [N s, N m s]
 };
+
+/// Power that a joint's dashpots take from its bodies at the velocities before the step. [W]
+double dashpotPower(const SolverBody& a, const SolverBody& b, const JointModes& modes, const Mat3& axesA,
+        const JointDamping& damping);
 
 /// A joint's modes in a step.
 struct ModalConstraint {
@@ -133,7 +154,7 @@ struct ModalConstraint {
 
 /// Constraint for a step of h [s], with zero impulse. modes are not copied.
 void prepareModes(ModalConstraint& constraint, const SolverBody& a, const SolverBody& b, const JointModes& modes,
-        const Mat3& axesA, double ratio, double h, const NewmarkHistory& history);
+        const Mat3& axesA, const JointDamping& damping, double h, const NewmarkHistory& history);
 
 /// One Gauss-Seidel visit: (3), (4). A squared change of at most `threshold` [J] is not applied.
 void solveModes(ModalConstraint& constraint, const BodyMotion& a, const BodyMotion& b, double threshold);

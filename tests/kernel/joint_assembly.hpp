@@ -17,7 +17,7 @@ struct Joint {
 	std::vector<Vec3> points; ///< [m]
 	JointStiffness stiffness;
 	Vec3 normal = Vec3::UnitZ();
-	double ratio = 0.05;
+	JointDamping damping { 0.05 };
 	std::vector<int> broken = std::vector<int>(points.size(), 0);
 };
 
@@ -88,7 +88,8 @@ struct Assembly {
 	}
 	Matrix damping() const
 	{
-		return ofModes([](const Joint& joint, double square) { return 2 * joint.ratio * std::sqrt(square); });
+		return ofModes(
+		        [](const Joint& joint, double square) { return joint.damping.of(std::sqrt(square)); });
 	}
 	Matrix newmark(double h) const
 	{
@@ -159,7 +160,7 @@ struct Assembly {
 			const Joint& j = joints[k];
 			modes[k] = modesOf(j);
 			solver.addJoint(j.a, j.b);
-			solver.prepareJoint(k, modes[k], Mat3::Identity(), j.ratio, history[k]);
+			solver.prepareJoint(k, modes[k], Mat3::Identity(), j.damping, history[k]);
 		}
 		solver.solve(tolerance);
 		double dissipated = 0;
@@ -202,7 +203,7 @@ inline std::vector<Vec3> square(const Vec3& centre, double x, double y)
 inline Assembly oscillator(double ratio)
 {
 	Assembly assembly { { body(0, Vec3::Zero()), member(8, { 0.5, 0.7, 0.02 }, Vec3::Zero()) }, {} };
-	assembly.joints.push_back({ 0, 1, square(Vec3::Zero(), 0.06, 0.05), { 60000, 40000 }, Vec3::UnitZ(), ratio });
+	assembly.joints.push_back({ 0, 1, square(Vec3::Zero(), 0.06, 0.05), { 60000, 40000 }, Vec3::UnitZ(), { ratio } });
 	return assembly;
 }
 
@@ -212,9 +213,9 @@ inline Assembly chain(double ratio)
 	Assembly assembly { { body(0, Vec3::Zero()), member(10, { 6, 6, 0.02 }, { 0, 0, 1.4 }),
 		                    member(30, { 0.1, 40, 40 }, { 1, 0.1, 2.9 }) },
 		{} };
-	assembly.joints.push_back({ 0, 1, square({ 0, 0, 0 }, 0.05, 0.05), { 58800, 58800 }, Vec3::UnitZ(), ratio });
+	assembly.joints.push_back({ 0, 1, square({ 0, 0, 0 }, 0.05, 0.05), { 58800, 58800 }, Vec3::UnitZ(), { ratio } });
 	assembly.joints.push_back(
-	        { 1, 2, square({ 0, 0, 2.8 }, 0.05, 0.06), { 58800, 30000 }, Vec3(0.6, 0, 0.8), ratio });
+	        { 1, 2, square({ 0, 0, 2.8 }, 0.05, 0.06), { 58800, 30000 }, Vec3(0.6, 0, 0.8), { ratio } });
 	return assembly;
 }
 
@@ -231,7 +232,7 @@ struct MassOnSpring {
 	double mass, k; ///< [kg, N/m]
 	double x = 0; ///< displacement [m]
 	Assembly assembly { { body(0, Vec3::Zero()), body(mass, Vec3::Zero()) },
-		{ { 0, 1, { Vec3::Zero() }, { k, k }, Vec3::UnitZ(), 0 } }, {} };
+		{ { 0, 1, { Vec3::Zero() }, { k, k }, Vec3::UnitZ(), { 0 } } }, {} };
 
 	double omega() const { return std::sqrt(k / mass); }
 	double& velocity() { return assembly.bodies[1].newVelocity.z(); }

@@ -68,4 +68,5 @@ def joint_values(data, rule, part=1):
             "strength": factor * table["strength"] if rule["strength"] is None else part * rule["strength"],
             "per": table["per"] or data["law"]["joint_reading"],
             "damping_ratio": data["law"]["joint_damping"] if table["damping_ratio"] is None else table["damping_ratio"],
+            "initial_damping": data["law"]["damping_stiffness"] == "initial",
             **{key: table[key] for key in SLIP_KEYS}}

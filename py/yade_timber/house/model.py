@@ -79,6 +79,8 @@ class JointSpec:
     side: frozenset = frozenset()
     law: str = "brittle"  # or 'slip'
     damping_ratio: float = 0.0  # of the critical damping of the joined masses
+    damping_time: float = 0.0  # [s] of dashpots that damp the sway of the house, over the stiffness
+    initial_damping: bool = False  # dashpots keep the initial stiffness of yielded springs
     friction_share: object = None     # law 'slip': share of the yield force that acts in both directions
     softening_stretch: object = None  # [m] law 'slip': stretch from which the strength falls
     ultimate_stretch: object = None   # [m] law 'slip': stretch at which no strength is left

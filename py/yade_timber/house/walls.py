@@ -106,7 +106,8 @@ def _joints(bay, name, members, data, level):
     beams, columns = _values(bay, points, height, 1.0), _values(bay, points, bay.length, height / bay.length)
     common = dict(points=(low.centroid + high.centroid)[None] / 2, area=0.0, type=name, ks=0.0, per="spring",
                   storey=bay.low.storey, side=bay.side, group=bay.low.group, law="slip",
-                  damping_ratio=data["law"]["joint_damping"], friction_share=data["wall_types"][name]["friction_share"])
+                  initial_damping=data["law"]["damping_stiffness"] == "initial",
+                  friction_share=data["wall_types"][name]["friction_share"])
     return [
         JointSpec(below.name, above.name, normal=along / np.linalg.norm(along), kind=WALL_BEAM, label=f"{label}.beams",
                   **beams, **common),

@@ -142,6 +142,7 @@ def make_joint(id1, id2, springs):
                           normal=s1.ori.conjugate() * direction.normalized(), kn=springs.kn, ks=springs.ks,
                           strength=springs.strength, perJoint=PER_JOINT[springs.per],
                           broken=[int(springs.broken)] * len(points), dampingRatio=springs.damping_ratio,
+                          dampingTime=springs.damping_time, initialDamping=springs.initial_damping,
                           kind=springs.kind, name=springs.name, law=springs.law,
                           **(slip if springs.law == "slip" else {}))
 
