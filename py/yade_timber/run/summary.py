@@ -42,7 +42,7 @@ def summary(scenario, observed, tables, wall_s, made_from, cut_off=None):
     residual, amplitude = drift.residual(history)
     simulated = round(O.iter * scenario.dt, 9)
     structures = survey.by_structure(state, observed.peaks)
-    created = find_engine(yw.ContactForces).created
+    created = created_energy()
     energy = (energy_balance(queries.energy(), created) if cut_off is None
               else energy_balance(last_energies(history), _finite(created)))
     draft = Summary(
@@ -68,6 +68,13 @@ def summary(scenario, observed, tables, wall_s, made_from, cut_off=None):
         column_drift=ColumnDrifts(drift.by_storey(monitor.columnPeak), drift.by_storey(monitor.medianPeak)),
     )
     return judged(draft)
+
+
+def created_energy():
+    """Energy that contacts and joints have created so far [J]: of points and joints that have ceased to exist, debts of
+    stiff joints, and the net error of yielding joints that the step resolves."""
+    contacts, joints = find_engine(yw.ContactForces), find_engine(yw.JointEngine)
+    return contacts.created + contacts.jointDebt + (max(0.0, joints.created) if joints else 0.0)
 
 
 def judged(draft):
