@@ -106,7 +106,10 @@ void JointEngine::computeForce(size_t index)
 	if (!joint.isActive) total = {};
 	else if (joint.yields) {
 		TimberJoint& j = *joints[index];
-		total = timber::slipForces(j.slipLaw(), placement(joint), j.slipAxis(), j.springs(), j.slipHistories());
+		total = j.isOfWall()
+		        ? timber::wallForces(j.wallLaw(), placement(joint), j.normal, j.springs(), j.wallHistories)
+		        : timber::slipForces(
+		                j.slipLaw(), placement(joint), j.slipAxis(), j.springs(), j.slipHistories());
 	} else
 		timber::springForces(joint.stiffness, placement(joint), joint.normal, packed->first(joint),
 		        packed->end(joint), total);
@@ -149,8 +152,11 @@ void JointEngine::breakSprings(size_t index)
 void JointEngine::breakYielded(size_t index)
 {
 	TimberJoint& joint = *joints[index];
-	for (const timber::SpringBreak& event : timber::slipBreaks(joint.slipLaw(), placement(packed->joints[index]),
-	             joint.normal, joint.springs(), joint.slipHistories()))
+	const std::vector<timber::SpringBreak> events = joint.isOfWall()
+	        ? timber::wallBreaks(joint.wallLaw(), joint.springs(), joint.wallHistories)
+	        : timber::slipBreaks(joint.slipLaw(), placement(packed->joints[index]), joint.normal, joint.springs(),
+	                joint.slipHistories());
+	for (const timber::SpringBreak& event : events)
 		breakSpring(index, event);
 }
 

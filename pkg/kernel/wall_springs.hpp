@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Springs of walls between two bodies: wall_law.hpp along one axis of body A. Adapter: JointEngine
+/// (pkg/JointEngine.hpp). Signs and frames as in slip_law.hpp: the stretch of a spring is projected on the axis, and
+/// the force acts on both bodies at the anchor of B.
+#pragma once
+#include "joint_law.hpp"
+#include "wall_law.hpp"
+
+namespace timber {
+
+/// Stretches, forces and new histories of a wall's unbroken springs. The entries of broken springs stay as they are.
+/// axis: unit vector in the frame of A; histories: one of each spring.
+JointForce wallForces(const WallLaw& law, const JointPlacement& placement, const Vec3& axis,
+        const JointSprings& springs, std::vector<WallHistory>& histories);
+
+/// Springs without strength, in their order. They have no force and no energy left.
+std::vector<SpringBreak> wallBreaks(
+        const WallLaw& law, const JointSprings& springs, const std::vector<WallHistory>& histories);
+
+} // namespace timber
