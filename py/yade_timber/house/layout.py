@@ -75,7 +75,8 @@ layer = Variants("layer", {
 OPENINGS = ("window", "door")
 wall_line = Record({"along": Choice(("x", "y")), "at": nodes, "from": node, "to": node,
                     "type": ListOf(word(), scalar=True, least=1, most=5),
-                    "opening": Choice(("none", *OPENINGS), "none"), "storeys": storeys})
+                    "opening": Choice(("none", *OPENINGS), "none"), "panel": Number("", 0.1, 1.0, default=None),
+                    "storeys": storeys})
 _slab_load = Number("kN/m2", 0.05, 20.0, default=None)
 loads = Record({"roof": _slab_load, "floor": _slab_load, "wall": Number("kN/m2", 0.0, 20.0, default=None)}, default={})
 PLACE = Record({"origin": ListOf(Number("m", -1000, 1000), 2, default=None), "beside": word(None),
@@ -94,8 +95,9 @@ material = Variants("law", {
                     "stiffness_per_kg": Number("N/m per kg", 0.0, 1e9, open_low=True)})
 })
 _stretch = Number("m", 1e-5, 10.0, default=None)
-joint_type = Record({"law": Choice(("brittle", "slip"), "brittle"), "kn": Number("N/m", 1e3, 1e12),
-                     "ks": Number("N/m", 1e3, 1e12), "strength": Number("N", 10.0, infinite=True),
+joint_type = Record({"law": Choice(("brittle", "slip"), "brittle"), "at": Choice(("corners", "centre"), "corners"),
+                     "kn": Number("N/m", 1e3, 1e12), "ks": Number("N/m", 1e3, 1e12),
+                     "strength": Number("N", 10.0, infinite=True),
                      "per": Choice(("spring", "joint"), None), "damping_ratio": Number("", 0.0, 1.0, default=None),
                      "friction_share": Number("", 0.0, 1.0, default=None), "softening_stretch": _stretch,
                      "ultimate_stretch": _stretch})
@@ -123,7 +125,7 @@ wall_type = Record({"multiplier": Number("", 0.0, 20.0, default=None),
                     "reload_share": Number("", 0.0, 1.0, default=None),
                     "reload_target": Number("", 1.0, 2.0, default=None),
                     "friction_share": Number("", 0.0, 1.0, default=None), "softening_drift": _drift,
-                    "ultimate_drift": _drift, "residual": Number("N/m", 0.0, 1e5, default=0.0),
+                    "ultimate_drift": _drift, "residual_share": Number("", 0.0, 0.95, default=0.0),
                     "finish": Flag(False)})
 joint_rule = Record({"between": ListOf(ListOf(Choice(KINDS), scalar=True, most=len(KINDS)), 2), "type": word(),
                      "kind": word(), "across": Flag(False),

@@ -169,14 +169,14 @@ def _check_cycles(table, path):
         for key in SAWS_STATES:
             if table[key] is not None:
                 fail(table.at(key), f"{path}.{key}", "does not go with friction_share, the law slip; remove one of them")
-        if table["residual"]:
-            fail(table.at("residual"), f"{path}.residual", "does not go with friction_share, the law slip")
+        if table["residual_share"]:
+            fail(table.at("residual_share"), f"{path}.residual_share",
+                 "does not go with friction_share, the law slip; remove one of them")
     for level in LEVELS:
         largest = max(shear for _, shear in envelope(table, level))
-        for key in ("friction_force", "residual"):
-            if table[key] is not None and not table[key] < largest:
-                fail(table.at(key), f"{path}.{key}", f"must be below the largest shear, {largest:.4g} N/m, got"
-                     f" {table[key]:g}")
+        if table["friction_force"] is not None and not table["friction_force"] < largest:
+            fail(table.at("friction_force"), f"{path}.friction_force",
+                 f"must be below the largest shear, {largest:.4g} N/m, got {table['friction_force']:g}")
 
 
 _CHECKS = {"envelope": _check_envelope, "nails": _check_nails, "saws": _check_saws}
@@ -193,7 +193,7 @@ def has_rated_walls(data):
 def envelope(table, level):
     """[(drift, shear)] of a wall type from its first point to zero or residual shear. level: of LEVELS, for rated types
     """
-    return _with_residual(_whole_envelope(table, level), table["residual"])
+    return _with_residual(_whole_envelope(table, level), table["residual_share"])
 
 
 def _whole_envelope(table, level):
@@ -206,15 +206,14 @@ def _whole_envelope(table, level):
     return _rated(table, LEVELS[level])
 
 
-def _with_residual(points, residual):
-    """Points down to the residual shear, which remains beyond the last one."""
-    if residual == 0:
-        return points
+def _with_residual(points, share):
+    """Points down to this share of the largest shear, which remains beyond the last one."""
+    residual = share * max(shear for _, shear in points)
     kept = list(points)
     while len(kept) > 1 and kept[-2][1] <= residual:
         kept.pop()
     (d0, f0), (d1, f1) = kept[-2:]
-    return [*kept[:-1], (d0 + (f0 - residual) / (f0 - f1) * (d1 - d0), residual)] if f1 < residual else points
+    return [*kept[:-1], (d0 + (f0 - residual) / (f0 - f1) * (d1 - d0), residual)] if residual > 0 else points
 
 
 def cycles(table, level):

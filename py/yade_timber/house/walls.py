@@ -27,6 +27,9 @@ SHARE = 0.5
 OPENINGS = {"none": (1.0, 1.0, 1.0), "window": (0.4, 0.3, 0.2), "door": (0.2, 0.15, 0.1)}
 """Strength and stiffness over those without an opening, in bays up to 1 m, up to 2 m, and longer (strength: JBDPA,
 precise diagnosis of 2004; stiffness: assumed to be the same). [-]"""
+PANEL = 0.6
+"""Share of the shear of quasi-bearing, hanging and spandrel walls that cover the whole clear height, over that of a
+bearing wall. [-] (evaluation standard of the performance labelling, Notification 1347 of 2001; not verified)"""
 REACH = 1e-3
 """Beyond the ends of the columns, where beam and sill are looked for. [m]"""
 
@@ -40,6 +43,7 @@ class Bay:
     high: object
     side: frozenset
     opening: str
+    panel: object  # None: a bearing wall; else the share of the clear height that its panels cover [-]
     where: str
 
     @property
@@ -49,8 +53,9 @@ class Bay:
 
     @property
     def share(self):
-        """Of the strength of a wall without an opening. [-]"""
-        return OPENINGS[self.opening][np.searchsorted((1.0, 2.0), self.length - 1e-9)]
+        """Of the strength of a bearing wall without an opening. [-]"""
+        whole = 1.0 if self.panel is None else PANEL * self.panel
+        return whole * OPENINGS[self.opening][np.searchsorted((1.0, 2.0), self.length - 1e-9)]
 
 
 def sheathe(structure, elements, data, level):
@@ -78,7 +83,8 @@ def _bays(structure, line, by_name):
             places = [(node, at) if along == "x" else (at, node) for node in nodes]
             columns = [by_name[f"{structure.name}.column{storey}.x{x:g}y{y:g}"] for x, y in places]
             start = f"{structure.name}.wall{storey}.{line_name(along, at)}"
-            bays += [Bay(f"{start}.{first:g}-{last:g}", low, high, side, line["opening"], line.where)
+            bays += [Bay(f"{start}.{first:g}-{last:g}", low, high, side, line["opening"], line["panel"],
+                     line.where)
                      for first, last, low, high in zip(nodes, nodes[1:], columns, columns[1:])]
     return bays
 
@@ -97,8 +103,9 @@ def _nodes(structure, line, storey, at):
 
 
 def _joints(bay, name, members, data, level):
-    """The two halves of a wall of a type; their labels end in '.plywood.beams', '.plywood.window.beams'."""
-    label = f"{bay.name}.{name}" + ("" if bay.opening == "none" else f".{bay.opening}")
+    """The two halves of a wall of a type; their labels end in '.plywood.beams', '.plywood.window.beams', '.gypsum.panel.beams'."""
+    parts = [part for part, is_part in ((bay.opening, bay.opening != "none"), ("panel", bay.panel is not None)) if is_part]
+    label = ".".join([bay.name, name, *parts])
     low, high = bay.low.solid, bay.high.solid
     height = float(np.diff(low.bounds[:, 2])[0])
     along = np.append((high.centroid - low.centroid)[:2], 0.0)
