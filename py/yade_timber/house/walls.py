@@ -131,11 +131,11 @@ def _values(bay, table, level, lever, ratio):
     scaled = tuple((lever * drift, part * shear) for drift, shear in points)
     slopes = [(f1 - f0) / (d1 - d0) for (d0, f0), (d1, f1) in zip(((0.0, 0.0), *scaled), scaled)]
     strength = max(force for _, force in scaled)
-    common = {"kn": cyclic.steepness * max(slopes), "strength": strength, "envelope": scaled}
+    softening = max(stretch for stretch, force in scaled if force == strength)
+    common = {"kn": cyclic.steepness * max(slopes), "strength": strength, "envelope": scaled,
+              "softening_stretch": softening, "ultimate_stretch": scaled[-1][0]}
     if table["friction_share"] is not None:
-        softening = max(stretch for stretch, force in scaled if force == strength)
-        return {**common, "law": "slip", "friction_share": table["friction_share"], "softening_stretch": softening,
-                "ultimate_stretch": scaled[-1][0]}
+        return {**common, "law": "slip", "friction_share": table["friction_share"]}
     rate = part / lever
     return {**common, "law": "wall",
             "cycles": WallCycles(part * cyclic.friction_force, cyclic.reload_target, cyclic.reload_share,
