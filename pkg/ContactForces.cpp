@@ -111,7 +111,7 @@ void ContactForces::findIslands()
 		return p.points > 0 ? timber::Link(end(p.id1), end(p.id2)) : timber::noLink;
 	});
 	std::transform(joints.begin(), joints.end(), links.begin() + pairs.size(),
-	        [&](const TimberJoint* j) { return timber::Link(end(j->id1), end(j->id2)); });
+	        [&](const ImplicitJoint& j) { return timber::Link(end(j.joint->id1), end(j.joint->id2)); });
 	islands.find(bodies.size(), links);
 }
 
@@ -138,12 +138,12 @@ ContactForces::IslandResult ContactForces::solveIsland(timber::Islands::Island i
 	const int count = int(island.size()),
 	          pairCount = int(std::lower_bound(island.begin(), island.end(), int(pairs.size())) - island.begin());
 	const auto pair = [&](int k) -> const ContactPair& { return pairs[island[k]]; };
-	const auto joint = [&](int k) -> TimberJoint& { return *joints[island[k] - int(pairs.size())]; };
+	const auto joint = [&](int k) -> const ImplicitJoint& { return joints[island[k] - int(pairs.size())]; };
 	solver.begin(bodies, scene->dt, sweeps);
 	for (int k = 0; k < pairCount; ++k)
 		solver.addPair(pair(k).id1, pair(k).id2, pair(k).phys->records.data(), pair(k).points);
 	for (int k = pairCount; k < count; ++k)
-		solver.addJoint(joint(k).id1, joint(k).id2);
+		solver.addJoint(joint(k).joint->id1, joint(k).joint->id2);
 	timber::forAll(count, [&](int k) {
 		if (k < pairCount)
 			timber::prepareContacts(solver, k, pair(k).phys->properties(), pair(k).geom->contactPoints);
@@ -156,7 +156,8 @@ ContactForces::IslandResult ContactForces::solveIsland(timber::Islands::Island i
 		                pair(k).id1, pair(k).id2);
 	for (int k = pairCount; k < count; ++k)
 		result.imposedWork += addForce(
-		        storeJoint(solver, k - pairCount, *scene, joint(k), result.joints), joint(k).id1, joint(k).id2);
+		        storeJoint(solver, k - pairCount, *scene, joint(k), result.joints), joint(k).joint->id1,
+		        joint(k).joint->id2);
 	return result;
 }
 
@@ -172,7 +173,7 @@ void ContactForces::solveAll()
 
 void ContactForces::sumResults()
 {
-	elasticNormal = elasticShear = newmark = 0;
+	elasticNormal = elasticShear = 0;
 	for (const ContactPair& pair : pairs) {
 		placed += pair.placed;
 		released += math::max(Real(0), pair.released);
@@ -180,6 +181,7 @@ void ContactForces::sumResults()
 	}
 	int mostSweeps = 0;
 	Real largestChange = 0;
+	ImplicitJointResult inSolver;
 	bool allConverged = true;
 	for (const IslandResult& result : results) {
 		dashpotNormal += result.energies.dashpotNormal;
@@ -187,9 +189,8 @@ void ContactForces::sumResults()
 		friction += result.energies.friction;
 		elasticNormal += result.energies.elasticNormal;
 		elasticShear += result.energies.elasticShear;
-		jointDashpot += result.joints.dissipated;
 		imposedWork += result.imposedWork;
-		newmark += result.joints.stored;
+		inSolver.add(result.joints);
 		mostSweeps = std::max(mostSweeps, result.convergence.sweeps);
 		allConverged = allConverged && result.convergence.converged;
 		largestChange = std::max(largestChange, result.convergence.change);
@@ -198,6 +199,25 @@ void ContactForces::sumResults()
 	sweepsMax = std::max(sweepsMax, mostSweeps);
 	if (!allConverged) ++unconverged;
 	worstChange = std::max(worstChange, largestChange);
+	addJoints(inSolver);
+}
+
+/// Energies and breaks of the joints in the solver.
+void ContactForces::addJoints(const ImplicitJointResult& result)
+{
+	elasticJoints = result.stored;
+	jointDashpot += result.dashpots;
+	jointDebt = result.debt;
+	JointEngine* engine = findEngine<JointEngine>(*scene);
+	if (!engine) return;
+	engine->yielded += result.yielded;
+	engine->released += result.released;
+	std::vector<ImplicitBreak> breaks = result.breaks;
+	std::sort(breaks.begin(), breaks.end(), [](const ImplicitBreak& a, const ImplicitBreak& b) {
+		return std::pair(a.joint, a.spring.spring) < std::pair(b.joint, b.spring.spring);
+	});
+	for (const ImplicitBreak& one : breaks)
+		engine->breakSpring(one.joint, one.spring);
 }
 
 void ContactForces::action()
@@ -205,10 +225,9 @@ void ContactForces::action()
 	collectPairs();
 	checkPlacements();
 	collectBodies();
-	JointEnergies lost;
-	findImplicitJoints(*scene, bodies, sweeps > 0, joints, lost);
-	jointDashpot += lost.dissipated;
-	created += lost.created;
+	const ImplicitJointResult lost = findImplicitJoints(*scene, bodies, sweeps > 0, joints);
+	jointDashpot += lost.dashpots;
+	created += lost.debt;
 	findIslands();
 	solveAll();
 	sumResults();

@@ -24,13 +24,13 @@ class ContactForces : public GlobalEngine {
 	};
 	struct IslandResult {
 		timber::PairEnergies energies;
-		JointEnergies joints;
+		ImplicitJointResult joints;
 		timber::Convergence convergence;
 		Real imposedWork = 0; ///< by the contacts of fixed bodies that move [J]
 	};
 	std::vector<ContactPair> pairs, unordered; ///< ordered by body ids, and in the container's order
 	std::vector<size_t> order; ///< of each of `pairs`, its index in `unordered`
-	std::vector<TimberJoint*> joints; ///< damped or stiff
+	std::vector<ImplicitJoint> joints; ///< damped or stiff
 	timber::Islands islands; ///< of the pairs, and of the joints after them
 	std::vector<timber::Link> links; ///< of each pair and joint
 	std::vector<timber::ContactSolver> solvers; ///< of each thread
@@ -50,6 +50,7 @@ class ContactForces : public GlobalEngine {
 	IslandResult solveIsland(timber::Islands::Island);
 	void solveAll();
 	void sumResults();
+	void addJoints(const ImplicitJointResult&);
 
 public:
 	void postLoad(ContactForces&) { validate(); }
@@ -91,8 +92,11 @@ public:
 		((Real, placed, 0, , "Energy that normal springs had because bodies were placed in contact. [J]"))
 		((Real, created, 0, , "Energy that contact points and joints returned beyond their stored energy, "
 			"counted when they cease to exist. [J]"))
+		((Real, jointDebt, 0, , "Energy that stiff joints have returned beyond their stored energy so far. "
+			"[J]"))
 		((Real, imposedWork, 0, , "Work that fixed bodies have done on others by moving. [J]"))
-		((Real, newmark, 0, , "Energy of Newmark's term of stiff joints. [J]"))
+		((Real, elasticJoints, 0, , "Energy that stiff joints have stored in the middle between the last "
+			"placement and the next one. [J]"))
 		((Real, elasticNormal, 0, , "Energy of the normal springs in the middle between the last placement and "
 			"the next one. [J]"))
 		((Real, elasticShear, 0, , "Energy of the tangential springs in the middle between the last placement "

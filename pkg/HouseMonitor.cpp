@@ -68,7 +68,7 @@ namespace {
 	/// Elastic energy of joints after a whole step. [J]
 	Real jointEnergy(const EnergySources& s)
 	{
-		Real energy = s.contacts ? s.contacts->newmark : 0;
+		Real energy = s.contacts ? s.contacts->elasticJoints : 0;
 		if (s.joints) energy += s.joints->elastic;
 		if (s.joints && !s.joints->dead) energy += s.scene.dt / 2 * s.joints->elasticPower(s.scene);
 		return energy;

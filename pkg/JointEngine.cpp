@@ -103,25 +103,44 @@ void JointEngine::computeForce(size_t index)
 	const timber::PackedJoint& joint = packed->joints[index];
 	timber::JointForce& total = jointForces[index];
 	if (joint.isActive && !(hasBody(joint.bodyA) && hasBody(joint.bodyB))) joints[index]->breakAll();
-	if (!joint.isActive) total = {};
-	else if (joint.yields) {
-		TimberJoint& j = *joints[index];
-		total = j.isOfWall()
-		        ? timber::wallForces(j.wallLaw(), placement(joint), j.normal, j.springs(), j.wallHistories)
-		        : timber::slipForces(
-		                j.slipLaw(), placement(joint), j.slipAxis(), j.springs(), j.slipHistories());
-	} else
+	if (!joint.isActive || joint.isStiff) total = {};
+	else if (joint.yields) yield(index);
+	else
 		timber::springForces(joint.stiffness, placement(joint), joint.normal, packed->first(joint),
 		        packed->end(joint), total);
+}
+
+/// Forces of a joint that yields. Its energies differ from the work of the forces before and after the last motion
+/// where the law is not linear.
+void JointEngine::yield(size_t index)
+{
+	const timber::PackedJoint& joint = packed->joints[index];
+	TimberJoint& j = *joints[index];
+	const timber::JointForce before = jointForces[index];
+	timber::JointForce& total = jointForces[index];
+	total = j.isOfWall()
+	        ? timber::wallForces(j.wallLaw(), placement(joint), j.normal, j.springs(), j.wallHistories)
+	        : timber::slipForces(j.slipLaw(), placement(joint), j.slipAxis(), j.springs(), j.slipHistories());
+	if (!before.isKnown) return;
+	const timber::BodyKinematics a = kinematics(*bodyAt(*scene, joint.bodyA)->state),
+	                             b = kinematics(*bodyAt(*scene, joint.bodyB)->state);
+	errors[index] = total.energy + total.dissipated - before.energy
+	        + scene->dt / 2 * (before.power(a, b) + total.power(a, b));
 }
 
 void JointEngine::computeForces()
 {
 	jointForces.resize(joints.size());
+	errors.assign(joints.size(), 0);
 	timber::forAll(int(joints.size()), [this](int k) { computeForce(k); });
 }
 
-/// Breaks a spring and logs it.
+void JointEngine::handOver(size_t joint)
+{
+	elastic -= lastForce(joint).energy;
+	setForce(joint, {});
+}
+
 void JointEngine::breakSpring(size_t joint, const timber::SpringBreak& event)
 {
 	static const char* const names[] = { "tension", "compression", "shear" };
@@ -167,11 +186,12 @@ void JointEngine::breakAndSum()
 	sums.clear(bodies.size());
 	for (size_t k = 0; k < joints.size(); ++k) {
 		const timber::PackedJoint& joint = packed->joints[k];
-		if (!joint.isActive) continue;
+		if (!joint.isActive || joint.isStiff) continue;
 		if (joint.yields) breakYielded(k);
 		else if (timber::isOverloaded(joint.strength, jointForces[k])) breakSprings(k);
 		const timber::JointForce& total = jointForces[k];
 		yielded += total.dissipated;
+		created += errors[k];
 		if (total.energy == 0) continue; // all springs broken or unstretched
 		elastic += total.energy;
 		sums.add(joint.bodyA, total.force, total.torqueA);
@@ -184,6 +204,7 @@ Real JointEngine::elasticPower(const Scene& current) const
 	Real power = 0;
 	visitSprings(joints, current,
 	        [&](const TimberJoint& j, size_t k, const Vector3r& force, const State& s1, const State& s2) {
+		        if (j.isStiff()) return;
 		        const Vector3r end = s2.pos + s2.ori * j.anchors2[k];
 		        power += force.dot(timber::relativeVelocity<double>(
 		                end - s1.pos, end - s2.pos, s1.vel, s1.angVel, s2.vel, s2.angVel));

@@ -109,6 +109,7 @@ void TimberJoint::postLoad(TimberJoint&)
 	mean2 = mean(anchors2);
 	forces.resize(anchors1.size(), Vector3r::Zero());
 	stretches.resize(anchors1.size(), Vector3r::Zero());
+	if (isStiff()) halfStretches.resize(anchors1.size(), Vector3r::Zero());
 	if (isWall) {
 		wall = { wallCycles(share()), backbone() };
 		wallHistories.resize(anchors1.size());
@@ -131,11 +132,27 @@ void TimberJoint::breakSpring(size_t spring)
 	if (packed) packed->set(index, changed);
 }
 
-void TimberJoint::setNewmark(const timber::NewmarkHistory& history)
+std::unique_ptr<timber::SpringLaw> TimberJoint::springLaw()
 {
-	newmarkEnergy = history.stored;
-	newmarkLinear = history.linear;
-	newmarkAngular = history.angular;
+	if (isWall) return std::make_unique<timber::WallSprings>(wall, normal, wallHistories);
+	if (isSlip) return std::make_unique<timber::SlipSprings>(slip, slipAxis(), slipHistories());
+	return std::make_unique<timber::BrittleSprings>(stiffness(), jointStrength(), normal);
+}
+
+void TimberJoint::stiffen()
+{
+	storeSprings();
+	halfStretches.resize(anchors1.size(), Vector3r::Zero());
+	if (packed) packed->joints[index].isStiff = true;
+}
+
+void TimberJoint::soften()
+{
+	halfStretches.clear();
+	storedEnergy = 0;
+	if (!packed) return;
+	packed->set(index, { anchors1, anchors2, broken, stretches, forces });
+	packed->joints[index].isStiff = false;
 }
 
 void TimberJoint::breakAll()
@@ -149,20 +166,20 @@ void TimberJoint::pack(const shared_ptr<timber::PackedJoints>& to)
 	const timber::JointSprings unpacked = springs();
 	packed = to;
 	index = packed->joints.size();
-	packed->add({ id1, id2, yields(), stiffness(), jointStrength(), normal }, unpacked);
+	packed->add({ id1, id2, yields(), isStiff(), stiffness(), jointStrength(), normal }, unpacked);
 }
 
 TimberJoint::SpringVectors TimberJoint::lastSprings() const
 {
 	SpringVectors last { stretches, forces };
-	if (packed && !yields())
+	if (isPacked())
 		timber::unpackSprings(packed->first(packed->joints[index]), last.stretches, last.forces);
 	return last;
 }
 
 void TimberJoint::storeSprings()
 {
-	if (packed && !yields()) timber::unpackSprings(packed->first(packed->joints[index]), stretches, forces);
+	if (isPacked()) timber::unpackSprings(packed->first(packed->joints[index]), stretches, forces);
 }
 
 timber::JointSprings TimberJoint::springs()

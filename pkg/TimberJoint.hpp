@@ -13,6 +13,7 @@ namespace serialization {
 	template <class Archive> void serialize(Archive& ar, timber::JointModes& m, const unsigned int)
 	{
 		ar& make_nvp("centre", m.centre) & make_nvp("modes", m.modes) & make_nvp("frequencies", m.frequencies);
+		ar& make_nvp("twists", m.twists);
 		ar& make_nvp("springs", m.state.springs) & make_nvp("normal", m.state.stiffness.normal)
 		        & make_nvp("shear", m.state.stiffness.shear);
 		ar& make_nvp("pairInverseMass", m.state.pairInverseMass)
@@ -45,6 +46,8 @@ class TimberJoint : public Serializable {
 	struct SpringVectors {
 		vector<Vector3r> stretches, forces;
 	};
+	/// Whether `packed` has stretches and forces.
+	bool isPacked() const { return packed && !yields() && !isStiff(); }
 	/// In the last step.
 	SpringVectors lastSprings() const;
 	/// Sets the attributes to those of the last step.
@@ -99,8 +102,14 @@ public:
 	timber::SpringGroup springGroup() const { return { anchors1, broken, stiffness(), normal }; }
 	void breakSpring(size_t spring);
 	void breakAll();
-	timber::NewmarkHistory newmark() const { return { newmarkEnergy, newmarkLinear, newmarkAngular }; }
-	void setNewmark(const timber::NewmarkHistory&);
+	/// Law of the springs in steps that do not resolve them. Valid until an attribute is set.
+	std::unique_ptr<timber::SpringLaw> springLaw();
+	/// Whether the contact solver moves the springs: the step does not resolve them.
+	bool isStiff() const { return !halfStretches.empty(); }
+	/// From this step on the contact solver moves the springs.
+	void stiffen();
+	/// From the next step on JointEngine moves the springs.
+	void soften();
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(TimberJoint, Serializable, "Springs between two bodies, each anchored in "
@@ -165,11 +174,9 @@ public:
 			"so far. [m]"))
 		((vector<timber::WallHistory>, wallHistories, , Attr::hidden, "Law wall: history of each spring. "
 			"[m, N]"))
-		((Real, newmarkEnergy, 0, Attr::readonly, "Energy of Newmark's term of a stiff joint. [J]"))
-		((Vector3r, newmarkLinear, Vector3r::Zero(), Attr::hidden, "Momentum of Newmark's term, frame of body "
-			"1. [N s]"))
-		((Vector3r, newmarkAngular, Vector3r::Zero(), Attr::hidden, "Angular momentum of Newmark's term about "
-			"the centre of the springs, frame of body 1. [N m s]"))
+		((Real, storedEnergy, 0, Attr::readonly, "Energy that the springs of a stiff joint can return. [J]"))
+		((vector<Vector3r>, halfStretches, , Attr::hidden, "Stretches of a stiff joint in the middle between "
+			"the last placement and the next one, frame of body 1; empty: not stiff. [m]"))
 		((timber::JointModes, modes, , Attr::hidden, "Vibration modes of a damped joint. [-]")),
 		,
 		.add_property("forces", &TimberJoint::springForces, "Force of each spring on body 1 in the last step, "

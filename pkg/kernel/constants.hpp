@@ -178,6 +178,15 @@ constexpr double roundingOverlap = 1e-9;
 /// are stable below 2, several joints of a member together below less.
 /// Larger: stiff joints of a member limit the step; smaller: more joints take part in the sweeps.
 constexpr double stiffPhase = 1;
+/// Share of it below which a stiff joint's springs are explicit again. [-] Modes change by some per cent as bodies turn.
+constexpr double softPhase = 0.8;
+
+/// Newton's method of a stiff joint ends when the residual of its modal velocities is this share of them. [-]
+constexpr double springTolerance = 1e-13;
+/// Its largest number of iterations; linear springs need one, springs that yield two to six. [-]
+constexpr int springIterations = 30;
+/// Smallest share of a Newton step that is tried. [-]
+constexpr double springLeastShare = 1e-3;
 
 /// Rotation of a joint's bodies against each other from which on its vibration modes are computed again. [rad] The
 /// modes vary only with it.

@@ -73,12 +73,12 @@ size_t ContactSolver::addJoint(int bodyA, int bodyB)
 	return joints.size() - 1;
 }
 
-void ContactSolver::prepareJoint(
-        size_t k, const JointModes& modes, const Mat3& axesA, double ratio, const NewmarkHistory& history)
+ModalConstraint& ContactSolver::prepareJoint(size_t k, const JointModes& modes, const Mat3& axesA, double ratio)
 {
 	assert(k < joints.size());
 	timber::prepareModes(
-	        joints[k], (*bodies)[joints[k].bodyA], (*bodies)[joints[k].bodyB], modes, axesA, ratio, h, history);
+	        joints[k], (*bodies)[joints[k].bodyA], (*bodies)[joints[k].bodyB], modes, axesA, ratio, h);
+	return joints[k];
 }
 
 template <class Number> void ContactSolver::prepare(size_t k, size_t first, const StepInput<Number>& data)
@@ -370,6 +370,8 @@ Convergence ContactSolver::solve(double tolerance)
 	assert(tolerance >= 0);
 	for (const SolverPair& pair : pairs)
 		warmStart(pair);
+	for (const ModalConstraint& joint : joints)
+		timber::warmStart(joint, motionOf(joint.bodyA), motionOf(joint.bodyB));
 	Convergence result;
 	if (isExplicit())
 		for (ModalConstraint& joint : joints)

@@ -281,4 +281,33 @@ WallForce WallLaw::advance(const WallHistory& history, double stretch) const
 	return { arrival.slope, energyOf(after, stretch, next.force), arrival.dissipated, next };
 }
 
+/// Stretch of the largest force on the backbone that a spring follows up to another stretch, away from zero.
+double WallLaw::strongest(const WallHistory& history, double stretch) const
+{
+	const double sign = stretch > history.stretch ? 1 : -1, k = cycles.stiffness, x1 = sign * stretch,
+	             x0 = sign * history.stretch, force0 = sign * history.force;
+	const Bound upper = bound(history.reversed[sign > 0 ? 0 : 1], pinched(history));
+	const double first = std::max({ 0., x0, isElastic(history) ? 0 : upper.end });
+	double best = isElastic(history) ? first : std::min(x1, crossing({ k, force0 - k * x0 }, first));
+	for (const Knot& knot : knots)
+		if (knot.stretch > best && knot.stretch < x1 && knot.force > force(best)) best = knot.stretch;
+	return force(x1) < force(best) ? sign * best : stretch;
+}
+
+WallForce WallLaw::hold(const WallHistory& history, double stretch) const
+{
+	WallForce whole = advance(history, stretch);
+	if (whole.tangent >= 0) return whole;
+	whole.tangent = 0;
+	const double from = strongest(history, stretch);
+	if (from == stretch) return whole;
+	WallForce held = from == history.stretch ? WallForce { 0, energy(history), 0, history } : advance(history, from);
+	const double force = held.history.force, before = held.energy;
+	held.history.stretch = stretch;
+	held.tangent = 0;
+	held.energy = energyOf(pinched(held.history), stretch, force);
+	held.dissipated += std::max(0., force * (stretch - from) - (held.energy - before));
+	return held;
+}
+
 } // namespace timber

@@ -105,6 +105,7 @@ class WallLaw {
 	Bound bound(double u, const Line& pinched) const;
 	double valueAt(const Bound&, double x) const;
 	double energyOf(const Line& pinched, double x, double force) const;
+	double strongest(const WallHistory&, double stretch) const;
 	Arrival moveAlong(const Bound&, double x0, double force0, double x1, const Line& after) const;
 	bool isElastic(const WallHistory&) const;
 	WallForce elastic(double stretch, const WallHistory& next) const;
@@ -126,6 +127,9 @@ public:
 	}
 	/// To another stretch [m]. An update with the same stretch again changes nothing.
 	WallForce advance(const WallHistory&, double stretch) const;
+	/// The same for a step that does not resolve the spring: where the backbone falls on the path, the spring keeps
+	/// the largest force of the path, as on a plateau. The history keeps its largest stretches.
+	WallForce hold(const WallHistory&, double stretch) const;
 	double energy(const WallHistory&) const; ///< stored [J]
 };
 

@@ -11,6 +11,7 @@ JointForce wallForces(const WallLaw& law, const JointPlacement& placement, const
 	assert(isUnit(axis) && isFinite(placement.distance) && histories.size() == springs.broken.size());
 	const Vec3 worldAxis = placement.axesA * axis;
 	JointForce total;
+	total.isKnown = true;
 	for (size_t i = 0; i < springs.broken.size(); ++i) {
 		if (springs.broken[i]) continue;
 		const Vec3 armB = placement.axesB * springs.anchorsB[i], end = placement.distance + armB;
@@ -29,6 +30,38 @@ JointForce wallForces(const WallLaw& law, const JointPlacement& placement, const
 		total.dissipated += f.dissipated;
 	}
 	return total;
+}
+
+WallSprings::WallSprings(const WallLaw& law_, const Vec3& axis_, std::vector<WallHistory>& histories_)
+        : law(law_)
+        , axis(axis_)
+        , histories(histories_)
+{
+	assert(law.isValid() && isUnit(axis));
+}
+
+SpringState WallSprings::along(const WallForce& force) const
+{
+	SpringState state;
+	state.force = force.history.force * axis;
+	state.tangent = std::max(0., force.tangent) * axis * axis.transpose();
+	state.energy = force.energy;
+	state.dissipated = force.dissipated;
+	return state;
+}
+
+SpringState WallSprings::trial(size_t spring, const Vec3&, const Vec3& to) const
+{
+	return along(law.hold(histories[spring], axis.dot(to)));
+}
+
+SpringState WallSprings::commit(size_t spring, const Vec3&, const Vec3& to)
+{
+	const WallForce force = law.advance(histories[spring], axis.dot(to));
+	histories[spring] = force.history;
+	SpringState state = along(force);
+	state.breaks = law.isSpent(force.history);
+	return state;
 }
 
 std::vector<SpringBreak> wallBreaks(

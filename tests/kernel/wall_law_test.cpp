@@ -9,6 +9,7 @@ using namespace timber;
 
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double rounding = 1e-11; ///< of sums of up to 1e4 numbers, relative
 
 const std::vector<BackbonePoint> points { { 0.004, 2000 }, { 0.01, 4000 }, { 0.03, 7000 }, { 0.05, 5000 },
@@ -267,6 +268,28 @@ TEST(WallLaw, TangentIsThatOfTheForce)
 		const WallForce a = spring.law.advance(history, from + step), b = spring.law.advance(a.history, from + 2 * step);
 		EXPECT_NEAR(b.tangent, (b.history.force - a.history.force) / step, 1e-4 * k);
 	}
+}
+
+/// A step that does not resolve the spring: no falling force, and the energy balance of the plateau.
+TEST(WallLaw, HeldForceDoesNotFall)
+{
+	for (const double target : { 1., 1.1 })
+		for (const double start : { 0.01, 0.028, 0.035, -0.02 }) {
+			Spring spring { WallLaw(cyclesOf(target), points) };
+			spring.lead(start, 10);
+			double last = -infinity, work = spring.energy();
+			WallHistory before = spring.history;
+			for (int i = 1; i <= 200; ++i) {
+				const double to = start + i * (0.08 - start) / 200;
+				const WallForce f = spring.law.hold(spring.history, to);
+				work += (before.force + f.history.force) / 2 * (to - before.stretch);
+				before = f.history;
+				EXPECT_GE(f.history.force, last) << start << " " << to;
+				EXPECT_GE(f.tangent, 0);
+				EXPECT_NEAR(f.energy + f.dissipated, work, 2e-3 * 7000 * 0.08) << start << " " << to;
+				last = f.history.force;
+			}
+		}
 }
 
 TEST(WallLaw, NumbersThatAreNoWall)
