@@ -321,6 +321,27 @@ std::vector<timber::PointSpring> ContactForces::linearSprings(
 	return springs;
 }
 
+Real ContactForces::dashpotPower(const Scene& scene, const std::vector<timber::SolverBody>& bodies)
+{
+	std::vector<ContactPair> contacts;
+	findPairs(scene, contacts);
+	Real power = yade::dashpotPower(scene, bodies);
+	for (const ContactPair& pair : contacts) {
+		const timber::SolverBody &a = bodies[pair.id1], &b = bodies[pair.id2];
+		const timber::PairProperties properties = pair.phys->properties();
+		for (size_t k = 0; k < pair.points; ++k) {
+			const timber::ContactPoint& at = pair.geom->contactPoints[k];
+			const Vector3r u = timber::relativeVelocity<double>(at.position - a.position,
+			        at.position - b.position, a.velocity, a.spin, b.velocity, b.spin);
+			const Real along = u.dot(at.normal),
+			           cn = timber::normalDamping<double>(properties, pair.phys->records[k].stiffness),
+			           cs = timber::shearDamping<double>(properties, cn);
+			power += cn * along * along + cs * (u.squaredNorm() - along * along);
+		}
+	}
+	return power;
+}
+
 Real ContactForces::largestEigenvalue() const
 {
 	// An engine of a loaded scene has no scene before its first step

@@ -62,6 +62,9 @@ public:
 	void action() override;
 	/// Largest eigenvalue of M^-1 K of the present contacts and joints of the current scene. [1/s2]
 	Real largestEigenvalue() const;
+	/// Power that the present dashpots of a scene take from its bodies at these velocities, linearised: contacts
+	/// neither slide nor open. bodies: masses, placements and velocities, indexed by body id [W]
+	static Real dashpotPower(const Scene&, const std::vector<timber::SolverBody>& bodies);
 	/// Linearised springs of the present contacts and joints of a scene. bodies: masses and placements, indexed by
 	/// body id
 	static std::vector<timber::PointSpring> linearSprings(const Scene&, const std::vector<timber::SolverBody>&);
@@ -72,7 +75,7 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(ContactForces, GlobalEngine,
 		"Adds the contact forces to the bodies, free and fixed: elastic forces of the laws, dashpots (paper, Eqs. 17, 18, "
 		"21-24), no tension, Coulomb friction. Adds the forces of the joints' dashpots "
-		"(TimberJoint.dampingRatio), too. "
+		"(TimberJoint.dampingRatio, TimberJoint.dampingTime), too. "
 		"Must come after the InteractionLoop and all other forces (joints, gravity, ground motion) and before "
 		"the integrator: the dashpots act on the mean velocity of the step, which depends on them.",
 		((int, sweeps, 10000, Attr::triggerPostLoad, "Largest number of Gauss-Seidel sweeps for the implicit "

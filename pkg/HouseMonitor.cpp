@@ -48,6 +48,32 @@ namespace {
 		        engine->joints.begin(), engine->joints.end(), [](const auto& j) { return j->isBroken(); }));
 	}
 
+	/// Whether each body has a joint with a spring left; all without a JointEngine.
+	std::vector<bool> joinedBodies(const Scene& scene)
+	{
+		const JointEngine* engine = findEngine<JointEngine>(scene);
+		std::vector<bool> joined(scene.bodies->size(), !engine);
+		for (size_t k = 0; engine && k < engine->joints.size(); ++k) {
+			const TimberJoint& j = *engine->joints[k];
+			if (!j.isBroken() && bodyAt(scene, j.id1) && bodyAt(scene, j.id2))
+				joined[j.id1] = joined[j.id2] = true;
+		}
+		return joined;
+	}
+
+	/// Absolute values: the largest one, and that of the median. values: at least one, in any order; out: another
+	/// one
+	std::pair<Real, Real> largestAndMedian(std::vector<Real>& values)
+	{
+		const auto [low, high] = std::minmax_element(values.begin(), values.end());
+		const Real largest = math::max(math::abs(*low), math::abs(*high));
+		const size_t half = values.size() / 2;
+		std::nth_element(values.begin(), values.begin() + half, values.end());
+		const Real upper = values[half];
+		if (values.size() % 2) return { largest, math::abs(upper) };
+		return { largest, math::abs(upper + *std::max_element(values.begin(), values.begin() + half)) / 2 };
+	}
+
 	/// Scene and the engines that store energies, also those that are switched off; null if there is none.
 	struct EnergySources {
 		const Scene& scene;
@@ -106,6 +132,11 @@ void HouseMonitor::validate() const
 		requirePositive("HouseMonitor.heights", height);
 	for (int level : levels)
 		require(level >= 0, "HouseMonitor.levels", level, ">= 0");
+	for (int storey : columnStoreys)
+		require(storey >= 1, "HouseMonitor.columnStoreys", storey, ">= 1");
+	require(columnBodies.empty() || columnStoreys.empty() || columnBodies.size() == columnStoreys.size(),
+	        "HouseMonitor.columnStoreys: length", columnStoreys.size(),
+	        "that of HouseMonitor.columnBodies; set both with updateAttrs()");
 	const bool isComplete = !levels.empty() && !bodies.empty(); // attributes may be set one after the other
 	require(!isComplete || levels.size() == bodies.size(), "HouseMonitor.levels: length", levels.size(),
 	        "that of HouseMonitor.bodies; set both with updateAttrs()");
@@ -151,8 +182,31 @@ boost::python::list HouseMonitor::pyColumns() const
 	return names;
 }
 
+void HouseMonitor::recordColumns()
+{
+	const std::vector<bool> joined = joinedBodies(*scene);
+	std::vector<std::vector<Real>> drifts(2 * heights.size()); // in the order of peak
+	for (size_t k = 0; k < math::min(columnBodies.size(), columnStoreys.size()); ++k) {
+		const Body* b = bodyAt(*scene, columnBodies[k]);
+		if (!b || !joined[columnBodies[k]] || size_t(columnStoreys[k]) > heights.size()) continue;
+		const Vector3r axis = b->state->ori * (b->state->refOri.conjugate() * Vector3r::UnitZ());
+		if (axis.z() < math::sqrt(Real(0.5))) continue;
+		drifts[2 * columnStoreys[k] - 2].push_back(axis.y());
+		drifts[2 * columnStoreys[k] - 1].push_back(axis.x());
+	}
+	columnPeak.resize(drifts.size(), 0);
+	medianPeak.resize(drifts.size(), 0);
+	for (size_t k = 0; k < drifts.size(); ++k) {
+		if (drifts[k].empty()) continue;
+		const auto [largest, median] = largestAndMedian(drifts[k]);
+		columnPeak[k] = math::max(columnPeak[k], largest);
+		medianPeak[k] = math::max(medianPeak[k], median);
+	}
+}
+
 void HouseMonitor::record()
 {
+	if (!columnBodies.empty()) recordColumns();
 	rows.push_back(scene->time);
 	Vector3r below = Vector3r::Zero();
 	peak.resize(2 * heights.size(), 0);

@@ -120,21 +120,38 @@ ImplicitJointResult findImplicitJoints(const Scene& scene, const std::vector<tim
 	if (!engine) return lost;
 	for (size_t k = 0; k < engine->joints.size(); ++k) {
 		TimberJoint& joint = *engine->joints[k];
-		const bool may = (joint.dampingRatio > 0 || alsoStiff) && hasModes(joint, scene, bodies);
+		const bool may = (joint.isDamped() || alsoStiff) && hasModes(joint, scene, bodies);
 		const bool isStiff = may && alsoStiff && (joint.isStiff() || joint.modes.isStiff(scene.dt));
-		if (may && (isStiff || joint.dampingRatio > 0)) implicit.push_back({ &joint, k, isStiff });
+		if (may && (isStiff || joint.isDamped()))
+			implicit.push_back({ &joint, k, isStiff, engine->lastForce(k).tangent });
 		if (isStiff && !joint.isStiff()) engine->handOver(k);
 		if (!isStiff && joint.isStiff()) release(joint, lost);
 	}
 	return lost;
 }
 
+Real dashpotPower(const Scene& scene, const std::vector<timber::SolverBody>& bodies)
+{
+	const JointEngine* engine = findEngine<JointEngine>(scene);
+	Real power = 0;
+	for (size_t k = 0; engine && k < engine->joints.size(); ++k) {
+		TimberJoint& joint = *engine->joints[k];
+		if (joint.isDamped() && hasModes(joint, scene, bodies))
+			power += timber::dashpotPower(bodies[joint.id1], bodies[joint.id2], joint.modes,
+			        axesOf(scene, joint.id1), joint.damping(engine->lastForce(k).tangent));
+	}
+	return power;
+}
+
 void prepareJoint(timber::ContactSolver& solver, size_t k, const ImplicitJoint& implicit, const Scene& scene)
 {
 	TimberJoint& joint = *implicit.joint;
+	timber::SpringSteps springs;
+	if (implicit.isStiff) springs = springSteps(joint, scene);
+	const Real tangent = implicit.isStiff ? springs.tangent(joint.stiffness()) : implicit.tangent;
 	timber::ModalConstraint& c
-	        = solver.prepareJoint(k, joint.modes, axesOf(scene, joint.id1), joint.dampingRatio);
-	if (implicit.isStiff) timber::addSprings(c, springSteps(joint, scene));
+	        = solver.prepareJoint(k, joint.modes, axesOf(scene, joint.id1), joint.damping(tangent));
+	if (implicit.isStiff) timber::addSprings(c, std::move(springs));
 }
 
 timber::PairForce storeJoint(const timber::ContactSolver& solver, size_t k, const Scene& scene,

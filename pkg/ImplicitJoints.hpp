@@ -11,6 +11,7 @@ struct ImplicitJoint {
 	TimberJoint* joint;
 	size_t index; ///< in the engine
 	bool isStiff; ///< its springs are in the solver
+	Real tangent; ///< stiffness of its explicit springs over the initial one [-]
 };
 
 /// A spring that breaks in the solver.
@@ -30,7 +31,7 @@ struct ImplicitJointResult {
 	void add(const ImplicitJointResult&);
 };
 
-/// Unbroken joints with a damping ratio, and on request joints too stiff for explicit springs, between bodies of which
+/// Unbroken joints with dashpots, and on request joints too stiff for explicit springs, between bodies of which
 /// at least one is free.
 /// bodies: by id, those of the scene; implicit: out, in the order of the joints. Returns the energies of joints that
 /// are stiff no more.
@@ -39,6 +40,9 @@ ImplicitJointResult findImplicitJoints(const Scene&, const std::vector<timber::S
 
 /// Constraint of a joint, the k-th of the solver.
 void prepareJoint(timber::ContactSolver&, size_t k, const ImplicitJoint&, const Scene&);
+
+/// Power that the dashpots of all joints take from bodies at these velocities, as in the last step. bodies: by id [W]
+Real dashpotPower(const Scene&, const std::vector<timber::SolverBody>& bodies);
 
 /// Force of the solver's k-th joint. result: added to.
 timber::PairForce storeJoint(

@@ -162,7 +162,9 @@ void JointEngine::yield(size_t index)
 	TimberJoint& j = *joints[index];
 	const timber::JointForce before = jointForces[index];
 	timber::JointForce& total = jointForces[index];
-	total = timber::slipForces(j.slipLaw(), placement(joint), j.slipAxis(), j.springs(), j.slipHistories());
+	total = j.isOfWall()
+	        ? timber::wallForces(j.wallLaw(), placement(joint), j.normal, j.springs(), j.wallHistories)
+	        : timber::slipForces(j.slipLaw(), placement(joint), j.slipAxis(), j.springs(), j.slipHistories());
 	if (!before.isKnown) return;
 	const timber::BodyKinematics a = kinematics(*bodyAt(*scene, joint.bodyA)->state),
 	                             b = kinematics(*bodyAt(*scene, joint.bodyB)->state);
@@ -213,8 +215,11 @@ void JointEngine::breakSprings(size_t index)
 void JointEngine::breakYielded(size_t index)
 {
 	TimberJoint& joint = *joints[index];
-	for (const timber::SpringBreak& event : timber::slipBreaks(joint.slipLaw(), placement(packed->joints[index]),
-	             joint.normal, joint.springs(), joint.slipHistories()))
+	const std::vector<timber::SpringBreak> events = joint.isOfWall()
+	        ? timber::wallBreaks(joint.wallLaw(), joint.springs(), joint.wallHistories)
+	        : timber::slipBreaks(joint.slipLaw(), placement(packed->joints[index]), joint.normal, joint.springs(),
+	                joint.slipHistories());
+	for (const timber::SpringBreak& event : events)
 		breakSpring(index, event);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Owner of the joints' springs: their forces, breaks and energies. Brittle springs and the rule of breaking:
 /// kernel/joint_law.hpp. Yielding springs:
-/// kernel/slip_law.hpp.
+/// kernel/slip_law.hpp, kernel/wall_springs.hpp.
 #pragma once
 #include <TimberJoint.hpp>
 #include <bodies.hpp>

@@ -115,6 +115,7 @@ BOOST_PYTHON_MODULE(_yade_timber)
 	boost::python::def("packed_joints", &yade::packedJoints, (boost::python::arg("engine")));
 	boost::python::def("packed_contacts", &yade::packedContacts);
 	boost::python::def("packed_springs", &yade::packedSprings);
+	boost::python::def("dashpot_power", &yade::pyDashpotPower, (boost::python::arg("velocities")));
 #ifdef YADE_OPENGL
 	boost::python::def("refresh_viewer", &yade::refreshViewer);
 #endif

@@ -80,11 +80,12 @@ size_t ContactSolver::addJoint(int bodyA, int bodyB)
 	return joints.size() - 1;
 }
 
-ModalConstraint& ContactSolver::prepareJoint(size_t k, const JointModes& modes, const Mat3& axesA, double ratio)
+ModalConstraint& ContactSolver::prepareJoint(
+        size_t k, const JointModes& modes, const Mat3& axesA, const JointDamping& damping)
 {
 	assert(k < joints.size());
 	timber::prepareModes(
-	        joints[k], (*bodies)[joints[k].bodyA], (*bodies)[joints[k].bodyB], modes, axesA, ratio, h);
+	        joints[k], (*bodies)[joints[k].bodyA], (*bodies)[joints[k].bodyB], modes, axesA, damping, h);
 	return joints[k];
 }
 

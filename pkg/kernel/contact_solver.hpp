@@ -151,7 +151,8 @@ public:
 	/// Phase 2: points of the k-th pair from `first` on, one or up to laneCount. Thread-safe for different pairs.
 	template <class Number> void prepare(size_t k, size_t first, const StepInput<Number>& input);
 	/// Phase 2: the k-th joint; arguments as of timber::prepareModes(). Thread-safe for different joints.
-	ModalConstraint& prepareJoint(size_t k, const JointModes& modes, const Mat3& axesA, double ratio);
+	ModalConstraint& prepareJoint(
+	        size_t k, const JointModes& modes, const Mat3& axesA, const JointDamping& damping);
 	/// Phase 3: computes impulses and new velocities. Pairs are visited in the order of their indices, the points
 	/// of a pair forwards and backwards in turn, so that no side of a face is favoured. After the first sweep only
 	/// active pairs are visited: those of which a body has just changed. A pair counts as changed above `tolerance`

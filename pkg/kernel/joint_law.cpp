@@ -94,7 +94,7 @@ void springForces(const JointStiffness& stiffness, const JointPlacement& placeme
 	double largest = 0;
 	for (size_t i = 0; i < laneCount; ++i)
 		largest = std::max(largest, lane(largestSquared, i));
-	total = { sums.vector(0), sums.vector(3), sums.vector(6), sums[9], 0, largest, sums[10] };
+	total = { sums.vector(0), sums.vector(3), sums.vector(6), sums[9], 0, 1, largest, sums[10] };
 }
 
 bool isOverloaded(const JointStrength& limit, const JointForce& force)

@@ -79,6 +79,8 @@ struct JointForce {
 	Vec3 force = Vec3::Zero(), torqueA = Vec3::Zero(), torqueB = Vec3::Zero(); ///< [N, N m]
 	double energy = 0; ///< [J]
 	double dissipated = 0; ///< in this step, by yielding (slip_law.hpp) [J]
+	/// Tangent stiffness of the unbroken springs over the initial one, in the mean, never negative [-]
+	double tangent = 1;
 	double largestSquared = 0; ///< square of the largest spring force [N2]
 	double sum = 0; ///< of the magnitudes of the spring forces [N]
 	bool isKnown = false; ///< a law has computed it

@@ -81,6 +81,17 @@ namespace {
 		return result;
 	}
 
+	/// Sets modes, axes, arms and eta.
+	void place(ModalConstraint& c, const SolverBody& a, const SolverBody& b, const JointModes& modes,
+	        const Mat3& axesA)
+	{
+		c.modes = &modes;
+		c.axesA = axesA;
+		c.armA = axesA * modes.centre;
+		c.armB = c.armA + a.position - b.position;
+		c.before = modalVelocity(c, twist(c, a.velocity, a.spin, b.velocity, b.spin));
+	}
+
 	/// Z q, in world axes.
 	[[gnu::always_inline]] inline JointImpulse impulseOf(const ModalConstraint& c, const Vec6& q)
 	{
@@ -124,16 +135,24 @@ JointModes jointModes(const SolverBody& a, const SolverBody& b, const Mat3& axes
 	return result;
 }
 
-void prepareModes(ModalConstraint& c, const SolverBody& a, const SolverBody& b, const JointModes& modes,
-        const Mat3& axesA, double ratio, double h)
+double dashpotPower(const SolverBody& a, const SolverBody& b, const JointModes& modes, const Mat3& axesA,
+        const JointDamping& damping)
 {
-	assert(h > 0 && ratio >= 0 && modes.state.springs > 0 && isRotation(axesA));
-	c.modes = &modes;
-	c.axesA = axesA;
-	c.armA = axesA * modes.centre;
-	c.armB = c.armA + a.position - b.position;
-	c.before = modalVelocity(c, twist(c, a.velocity, a.spin, b.velocity, b.spin));
-	const Eigen::Array<double, 6, 1> phase = h * modes.frequencies.array(), x = ratio * phase;
+	ModalConstraint c;
+	place(c, a, b, modes, axesA);
+	return modes.frequencies.unaryExpr([&](double omega) { return damping.of(omega); }).dot(c.before.cwiseAbs2());
+}
+
+void prepareModes(ModalConstraint& c, const SolverBody& a, const SolverBody& b, const JointModes& modes,
+        const Mat3& axesA, const JointDamping& damping, double h)
+{
+	assert(h > 0 && damping.ratio >= 0 && damping.time >= 0 && damping.tangent >= 0);
+	assert(modes.state.springs > 0 && isRotation(axesA));
+	place(c, a, b, modes, axesA);
+	const Eigen::Array<double, 6, 1> phase = h * modes.frequencies.array(),
+	                                   x = h / 2 * modes.frequencies.array().unaryExpr([&](double omega) {
+		                                   return damping.of(omega);
+	                                   });
 	const double stiffest = std::max(stiffPhase, phase[5]), square = stiffest * stiffest; // frequencies increase
 	c.thresholdShare = 1 / (square * square);
 	c.decay = x;

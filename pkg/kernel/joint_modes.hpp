@@ -9,14 +9,17 @@
 /// frequencies omega_k, with
 ///     Z^T R Z = 1,   K = Z omega^2 Z^T                                                          (1)
 /// The damping matrix D = 2 zeta Z omega Z^T gives each mode the damping ratio zeta, rotations of a slender member
-/// about its end included.
+/// about its end included. D = tau K is that of springs with dashpots of tau times their stiffness; motions to which
+/// further masses contribute, as the sway of a house, have the ratio tau omega_1 / 2 at their own frequency omega_1.
+/// Springs that have yielded have the tangent stiffness kappa K, modes of the frequency kappa^1/2 omega:
+///     D = Z (2 zeta kappa^1/2 omega + tau kappa omega^2) Z^T                                    (1a)
 /// (Dashpots at the points of the springs, C = 2 zeta sqrt(m K), would damp these rotations some thirty times less.)
 /// About the centroid of the springs' ends, translation and rotation are uncoupled: K is block diagonal.
 ///
 /// Impulse of a step h: P = -h D (w + w') / 2, w before and w' after the step: second order, stable at any zeta h, and
 /// the dissipated energy h (w + w')^T D (w + w') / 4 is never negative. In terms of the modes, P = Z q, eta = Z^T w,
 /// these are six scalars:
-///     q = -x (eta + eta'),   x = h zeta omega                                                   (2)
+///     q = -x (eta + eta'),   x = h (zeta kappa^1/2 omega + tau kappa omega^2 / 2)               (2)
 /// With the current twist u, in which q0 acts already, eta' = Z^T u + q - q0, and a visit of the joint is
 ///     q = s (q0 - Z^T u) - x eta / (1 + x),   s = x / (1 + x)                                    (3)
 /// The first visit of a step starts from q0 = 0, after the warm start of the contacts. Its error is small like s, so
@@ -31,11 +34,13 @@
 ///     D        damping       matrix of the joint's dashpots [N s/m, N s, N m s]
 ///     eta      -             modal velocity before the step; eta': after the step [kg^1/2 m/s]
 ///     K        stiffness     of the unbroken springs about the centre [N/m, N m]
+///     kappa    tangent       tangent stiffness over K, 0 to 1 [-]
 ///     omega    frequency     angular, of a mode [rad/s]
 ///     P        impulse       on B at the joint's centre [N s, N m s]
 ///     q, q0    modal impulse after and before a visit [kg^1/2 m/s]
 ///     R        response      of w to P [1/kg, 1/(kg m), 1/(kg m2)]
 ///     s        share         of the modal impulse of a joint that is infinitely damped [-]
+///     tau      time          of the dashpots: damping coefficient over stiffness [s]
 ///     w, u     twist         velocity and spin of B relative to A at the joint's centre: before the step, current
 ///                            [m/s, rad/s]
 ///     x        decay         decay rate of the mode times h [-]
@@ -97,6 +102,22 @@ struct JointModes {
 JointModes jointModes(const SolverBody& a, const SolverBody& b, const Mat3& axesA, const SpringGroup& springs,
         const JointState& state);
 
+/// Dashpots of a joint in a step.
+struct JointDamping {
+	double ratio; ///< zeta
+	double time = 0; ///< tau
+	double tangent = 1; ///< kappa
+	/// D for (1a) in a mode of frequency omega. [1/s]
+	double of(double omega) const
+	{
+		return 2 * ratio * std::sqrt(tangent) * omega + time * tangent * omega * omega;
+	}
+};
+
+/// Power that a joint's dashpots take from its bodies at the velocities before the step. [W]
+double dashpotPower(const SolverBody& a, const SolverBody& b, const JointModes& modes, const Mat3& axesA,
+        const JointDamping& damping);
+
 /// A joint's modes in a step.
 struct ModalConstraint {
 	int bodyA, bodyB;
@@ -121,7 +142,7 @@ struct ModalConstraint {
 
 /// Constraint for a step of h [s], with zero impulse. modes are not copied.
 void prepareModes(ModalConstraint& constraint, const SolverBody& a, const SolverBody& b, const JointModes& modes,
-        const Mat3& axesA, double ratio, double h);
+        const Mat3& axesA, const JointDamping& damping, double h);
 
 /// Adds the springs of a stiff joint, with the impulse of their last forces.
 void addSprings(ModalConstraint& constraint, SpringSteps springs);

@@ -8,6 +8,18 @@ namespace timber {
 namespace {
 	/// Relative rounding of the stretches and forces of a backbone. [-]
 	constexpr double rounding = 1e-9;
+
+	/// Tangent stiffness of a spring along its stretch of length r, over k; 0 where its force falls. [-]
+	/// before, after: histories before and after the update to this stretch
+	double tangentAlong(const SlipLaw& law, const SlipHistory& before, const SlipHistory& after, double r)
+	{
+		const double slack = law.slackAt(after.largest).slack, grown = after.largest - before.largest,
+		             limits = after.largest - slack - before.largest + law.slackAt(before.largest).slack;
+		const double onBackbone = grown > 0 ? std::max(0., limits / grown) : 0;
+		const double friction = after.plastic == before.plastic ? 1 : onBackbone,
+		             slip = r <= slack ? 0 : grown > 0 ? onBackbone : 1;
+		return law.frictionShare * friction + (1 - law.frictionShare) * slip;
+	}
 }
 
 const char* SlipLaw::unmetBy(double stiffness, const std::vector<BackbonePoint>& points)
@@ -158,13 +170,16 @@ JointForce slipForces(const SlipLaw& law, const JointPlacement& placement, const
 	const Vec3 worldAxis = placement.axesA * axis;
 	JointForce total;
 	total.isKnown = true;
+	double tangents = 0, intact = 0;
 	for (size_t i = 0; i < springs.broken.size(); ++i) {
 		if (springs.broken[i]) continue;
 		const Vec3 armB = placement.axesB * springs.anchorsB[i], end = placement.distance + armB;
 		Vec3 stretch = end - placement.axesA * springs.anchorsA[i];
 		if (!worldAxis.isZero()) stretch = worldAxis.dot(stretch) * worldAxis;
-		const SlipForce f = slipForce(
-		        law, { histories.plastic[i], histories.largest[i] }, placement.axesA.transpose() * stretch);
+		const SlipHistory before { histories.plastic[i], histories.largest[i] };
+		const SlipForce f = slipForce(law, before, placement.axesA.transpose() * stretch);
+		tangents += tangentAlong(law, before, f.history, stretch.norm());
+		++intact;
 		const Vec3 force = placement.axesA * f.force;
 		springs.stretches[i] = stretch;
 		springs.forces[i] = force;
@@ -179,6 +194,7 @@ JointForce slipForces(const SlipLaw& law, const JointPlacement& placement, const
 		total.energy += f.energy;
 		total.dissipated += f.dissipated;
 	}
+	if (intact > 0) total.tangent = tangents / intact;
 	return total;
 }
 

@@ -51,6 +51,14 @@ SpringSteps::SpringSteps(std::unique_ptr<SpringLaw> l, std::vector<SpringStep> s
 	}
 }
 
+double SpringSteps::tangent(const JointStiffness& stiffness) const
+{
+	double sum = 0;
+	for (const SpringStep& s : springs)
+		sum += s.start.tangent.trace();
+	return sum / (double(springs.size()) * (stiffness.normal + 2 * stiffness.shear));
+}
+
 double SpringSteps::startEnergy() const
 {
 	double energy = 0;

@@ -24,6 +24,7 @@
 /// After the step A is at most U1; the rest is dissipated: by yielding, with springs that break, and where velocities
 /// were imposed between two steps. In other steps (4) follows from (2).
 #pragma once
+#include "joint_law.hpp"
 #include "spring_law.hpp"
 #include <Eigen/Core>
 #include <memory>
@@ -84,6 +85,8 @@ public:
 	bool empty() const { return springs.empty(); }
 	/// Sum of the energies at z0. [J]
 	double startEnergy() const;
+	/// Tangent stiffness at z0 over the initial one, in the mean over springs and directions. [-]
+	double tangent(const JointStiffness& stiffness) const;
 	/// By how much the energy at z1 exceeds that of explicit springs at the half step. after: eta' [J]
 	double explicitDefect(double h, const Vec6& after) const;
 	/// Impulse of the forces of the last step, without q_a.

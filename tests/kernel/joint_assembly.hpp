@@ -18,7 +18,7 @@ struct Joint {
 	std::vector<Vec3> points; ///< [m]
 	JointStiffness stiffness;
 	Vec3 normal = Vec3::UnitZ();
-	double ratio = 0.05;
+	JointDamping damping { 0.05 };
 	std::vector<int> broken = std::vector<int>(points.size(), 0);
 };
 
@@ -95,7 +95,8 @@ struct Assembly {
 	}
 	Matrix damping() const
 	{
-		return ofModes([](const Joint& joint, double square) { return 2 * joint.ratio * std::sqrt(square); });
+		return ofModes(
+		        [](const Joint& joint, double square) { return joint.damping.of(std::sqrt(square)); });
 	}
 	/// Mass of the implicit springs of stiff joints: h2 K / 4.
 	Matrix stiffMass(double h) const
@@ -193,7 +194,7 @@ struct Assembly {
 			const Joint& j = joints[k];
 			modes[k] = modesOf(j);
 			solver.addJoint(j.a, j.b);
-			ModalConstraint& c = solver.prepareJoint(k, modes[k], Mat3::Identity(), j.ratio);
+			ModalConstraint& c = solver.prepareJoint(k, modes[k], Mat3::Identity(), j.damping);
 			if (sweeps > 0 && modes[k].isStiff(h)) addSprings(c, springSteps(j, history[k], modes[k], h));
 		}
 		solver.solve(tolerance);
@@ -244,7 +245,7 @@ inline std::vector<Vec3> square(const Vec3& centre, double x, double y)
 inline Assembly oscillator(double ratio)
 {
 	Assembly assembly { { body(0, Vec3::Zero()), member(8, { 0.5, 0.7, 0.02 }, Vec3::Zero()) }, {} };
-	assembly.joints.push_back({ 0, 1, square(Vec3::Zero(), 0.06, 0.05), { 60000, 40000 }, Vec3::UnitZ(), ratio });
+	assembly.joints.push_back({ 0, 1, square(Vec3::Zero(), 0.06, 0.05), { 60000, 40000 }, Vec3::UnitZ(), { ratio } });
 	return assembly;
 }
 
@@ -254,9 +255,9 @@ inline Assembly chain(double ratio)
 	Assembly assembly { { body(0, Vec3::Zero()), member(10, { 6, 6, 0.02 }, { 0, 0, 1.4 }),
 		                    member(30, { 0.1, 40, 40 }, { 1, 0.1, 2.9 }) },
 		{} };
-	assembly.joints.push_back({ 0, 1, square({ 0, 0, 0 }, 0.05, 0.05), { 58800, 58800 }, Vec3::UnitZ(), ratio });
+	assembly.joints.push_back({ 0, 1, square({ 0, 0, 0 }, 0.05, 0.05), { 58800, 58800 }, Vec3::UnitZ(), { ratio } });
 	assembly.joints.push_back(
-	        { 1, 2, square({ 0, 0, 2.8 }, 0.05, 0.06), { 58800, 30000 }, Vec3(0.6, 0, 0.8), ratio });
+	        { 1, 2, square({ 0, 0, 2.8 }, 0.05, 0.06), { 58800, 30000 }, Vec3(0.6, 0, 0.8), { ratio } });
 	return assembly;
 }
 
@@ -273,7 +274,7 @@ struct MassOnSpring {
 	double mass, k; ///< [kg, N/m]
 	double x = 0; ///< displacement [m]
 	Assembly assembly { { body(0, Vec3::Zero()), body(mass, Vec3::Zero()) },
-		{ { 0, 1, { Vec3::Zero() }, { k, k }, Vec3::UnitZ(), 0 } }, {} };
+		{ { 0, 1, { Vec3::Zero() }, { k, k }, Vec3::UnitZ(), { 0 } } }, {} };
 
 	double omega() const { return std::sqrt(k / mass); }
 	double& velocity() { return assembly.bodies[1].newVelocity.z(); }

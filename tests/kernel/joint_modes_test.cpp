@@ -52,6 +52,42 @@ TEST(Oscillator, HasTheDampingRatioInEachDirection)
 		}
 }
 
+/// Dashpots of tau times the stiffness: each direction has the ratio tau omega / 2; of the tangent stiffness kappa k:
+/// kappa times as much. The ratio of the modes falls with kappa^1/2.
+TEST(Oscillator, HasDashpotsOfTheTangentStiffness)
+{
+	const double omega = std::sqrt(4 * 60000 / 8.), h = 2 * pi / omega / 400;
+	for (const JointDamping& damping : { JointDamping { 0, 4e-4 }, JointDamping { 0, 4e-4, 0.25 },
+	             JointDamping { 0.05, 4e-4, 0.25 }, JointDamping { 0.05, 4e-4, 0 } }) {
+		const double zeta = damping.ratio * std::sqrt(damping.tangent)
+		        + damping.time * damping.tangent * omega / 2;
+		Assembly one = oscillator(0);
+		one.joints[0].damping = damping;
+		Vector x0 = Vector::Zero(12), v0 = Vector::Zero(12);
+		x0[8] = 1;
+		v0[8] = -zeta * omega;
+		const int steps = int(std::lround(10 * 2 * pi / (omega * std::sqrt(1 - zeta * zeta)) / h));
+		// Error of h omega, and of the phase of ten periods
+		EXPECT_NEAR(one.run(x0, v0, h, steps)[8], std::exp(-zeta * omega * h * steps), 3e-3);
+	}
+}
+
+/// The power is that of D in the coordinates of the bodies.
+TEST(Chain, TakesThePowerOfItsDashpots)
+{
+	Random random(23);
+	Assembly assembly = chain(0.1);
+	for (Joint& joint : assembly.joints)
+		joint.damping = { 0.1, 2e-3, 0.3 };
+	const Vector v = randomFree(random, assembly);
+	assembly.setVelocities(v);
+	double power = 0;
+	for (const Joint& j : assembly.joints)
+		power += dashpotPower(assembly.bodies[j.a], assembly.bodies[j.b], assembly.modesOf(j), Mat3::Identity(),
+		        j.damping);
+	EXPECT_NEAR(power, v.dot(assembly.damping() * v), 1e-10 * power); // rounding
+}
+
 /// One step multiplies the modal velocity by (1 - x + g) / (1 + x + g), x = h zeta omega, with g = (h omega)^2 / 4 of the
 /// implicit springs for h omega > 1: it never changes its energy upwards, however large x is.
 TEST(Oscillator, IsStableAtAnyRate)
@@ -233,7 +269,7 @@ TEST(JointModes, OldOnesAddNoEnergy)
 		const Mat3 axes = about(randomDirection(random), modeAngle).toRotationMatrix();
 		for (size_t k = 0; k < assembly.joints.size(); ++k)
 			solver.prepareJoint(
-			        solver.addJoint(assembly.joints[k].a, assembly.joints[k].b), modes[k], axes, 1);
+			        solver.addJoint(assembly.joints[k].a, assembly.joints[k].b), modes[k], axes, { 1 });
 		solver.solve(1e-10);
 		double dissipated = 0;
 		for (size_t k = 0; k < assembly.joints.size(); ++k) {
@@ -266,7 +302,7 @@ TEST(Chain, IsSolvedTogetherWithContacts)
 		modes.push_back(assembly.modesOf(j));
 	for (size_t k = 0; k < 2; ++k)
 		solver.prepareJoint(
-		        solver.addJoint(assembly.joints[k].a, assembly.joints[k].b), modes[k], Mat3::Identity(), 1);
+		        solver.addJoint(assembly.joints[k].a, assembly.joints[k].b), modes[k], Mat3::Identity(), { 1 });
 	solver.solve(1e-12);
 	Vector impulse = Vector::Zero(18); // of the contact
 	const Vec3 contact = worldImpulse(record.step);

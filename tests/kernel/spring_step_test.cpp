@@ -97,7 +97,7 @@ struct Row {
 			const JointState state { group.count(), { k, k }, 1, 1, Quat::Identity() };
 			modes[i] = jointModes(bodies[i], bodies[i + 1], Mat3::Identity(), group, state);
 			const size_t index = solver.addJoint(int(i), int(i + 1));
-			ModalConstraint& c = solver.prepareJoint(index, modes[i], Mat3::Identity(), ratio);
+			ModalConstraint& c = solver.prepareJoint(index, modes[i], Mat3::Identity(), { ratio });
 			at.push_back(i);
 			std::vector<SpringStep> steps;
 			for (size_t s = 0; s < points.size(); ++s) {

@@ -17,7 +17,7 @@ from ..recording import drift
 from ..recording.history import NAME as HISTORY
 from ..recording.history import History
 from ..recording.peaks import BREAKS
-from ..recording.summary import NAME, Diagnosis, Energy, Solver, Summary, Versions, Walls, Weight
+from ..recording.summary import NAME, ColumnDrifts, Diagnosis, Energy, Solver, Summary, Versions, Walls, Weight
 from ..scene import queries
 from ..scene.engines import find_engine
 from ..text.english import sentence
@@ -64,7 +64,8 @@ def summary(scenario, observed, tables, wall_s, made_from, cut_off=None):
         final_amplitude=drift.by_storey(amplitude), still_moving=drift.still_moving(amplitude),
         events=observed.log.sorted(), energy=energy, solver=solver(), versions=Versions(**observer.versions()),
         structures=structures, quantities=quantities.summarised(tables, observed), verdict="", sentence="",
-        made_from=made_from
+        made_from=made_from,
+        column_drift=ColumnDrifts(drift.by_storey(monitor.columnPeak), drift.by_storey(monitor.medianPeak)),
     )
     return judged(draft)
 
@@ -79,7 +80,9 @@ def created_energy():
 def judged(draft):
     """The Summary with verdict and sentences. The main structure is judged by the HouseMonitor, others by frames."""
     peak, residual = draft.largest_drift()[0], draft.largest_drift("residual_drift")[0]
-    main = replace(draft.main, peak_drift=peak, residual_drift=residual, collapsed=draft.collapsed)
+    at_columns = draft.largest_at_columns or (0.0,)
+    main = replace(draft.main, peak_drift=peak, column_drift=at_columns[0], residual_drift=residual,
+                   collapsed=draft.collapsed)
     draft = replace(draft, structures={**draft.structures, next(iter(draft.structures)): main}, verdict=main.verdict)
     return replace(draft, diagnosis=replace(draft.diagnosis, disagreement=comparison(draft)), sentence=sentence(draft))
 

@@ -39,9 +39,9 @@ def export_scene(path):
     coefficient.
 
     ``joints``: elements (ids), points (n, 3) world [m], normal (from the first to the second), stiffness (kn, ks)
-    [N/m], strength [N] (null: unbreakable), reading 'spring' or 'joint', damping_ratio [-], broken (one flag per
-    spring), kind, name, slip (null: brittle; else the parameters and the history of each spring); none of a removed
-    body.
+    [N/m], strength [N] (null: unbreakable), reading 'spring' or 'joint', damping_ratio [-], damping_time [s],
+    initial_damping, broken (one flag per spring), kind, name, slip (null: brittle; else the parameters and the history
+    of each spring); none of a removed body.
     """
     for body in O.bodies:
         if not isinstance(body.shape, yw.RoundedPolyhedron):
@@ -100,6 +100,7 @@ def describe_joint(joint):
             "normal": list(state.ori * joint.normal), "stiffness": [joint.kn, joint.ks],
             "strength": joint.strength if math.isfinite(joint.strength) else None,
             "reading": "joint" if joint.perJoint else "spring", "damping_ratio": joint.dampingRatio,
+            "damping_time": joint.dampingTime, "initial_damping": joint.initialDamping,
             "broken": [bool(b) for b in joint.broken], "kind": joint.kind, "name": joint.name,
             "slip": describe_slip(joint, state) if joint.law == "slip" else None}
 

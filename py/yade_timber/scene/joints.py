@@ -138,15 +138,31 @@ def make_joint(id1, id2, springs):
     s1, s2 = O.bodies[id1].state, O.bodies[id2].state
     points = [Vector3(*p) for p in springs.points]
     direction = Vector3(*springs.normal) if springs.normal is not None else s2.pos - s1.pos
-    slip = {"frictionShare": springs.friction_share, "softeningStretch": springs.softening_stretch,
-            "ultimateStretch": springs.ultimate_stretch, "envelope": [Vector2(*point) for point in springs.envelope]}
     return yw.TimberJoint(id1=id1, id2=id2, anchors1=[s1.ori.conjugate() * (p - s1.pos) for p in points],
                           anchors2=[s2.ori.conjugate() * (p - s2.pos) for p in points],
                           normal=s1.ori.conjugate() * direction.normalized(), kn=springs.kn, ks=springs.ks,
                           strength=springs.strength, perJoint=PER_JOINT[springs.per],
                           broken=[int(springs.broken)] * len(points), dampingRatio=springs.damping_ratio,
-                          kind=springs.kind, name=springs.name, law=springs.law,
-                          **(slip if springs.law == "slip" else {}))
+                          dampingTime=springs.damping_time, initialDamping=springs.initial_damping,
+                          kind=springs.kind, name=springs.name, law=springs.law, **_LAWS[springs.law](springs))
+
+
+def _slip(springs):
+    """Attributes of the law slip."""
+    return {"frictionShare": springs.friction_share, "softeningStretch": springs.softening_stretch,
+            "ultimateStretch": springs.ultimate_stretch, "envelope": [Vector2(*point) for point in springs.envelope]}
+
+
+def _wall(springs):
+    """Attributes of the law wall."""
+    cycles = springs.cycles
+    return {"envelope": [Vector2(*point) for point in springs.envelope], "frictionForce": cycles.friction_force,
+            "pinchedStiffness": cycles.pinched_stiffness, "reloadTarget": cycles.reload_target,
+            "reloadShare": cycles.reload_share, "reloadStiffness": cycles.reload_stiffness,
+            "reloadStretch": cycles.reload_stretch, "reloadPower": cycles.reload_power}
+
+
+_LAWS = {"brittle": lambda springs: {}, "slip": _slip, "wall": _wall}
 
 
 def joins_bodies(joint):
