@@ -55,7 +55,7 @@ def test_a_pipe_as_log_is_refused(tmp_path, monkeypatch):
     monkeypatch.setattr(driver, "command", lambda script: [sys.executable, str(script)])
     scripts = fake_script(tmp_path, WRITES)
     os.mkfifo(tmp_path / driver.LOG)
-    with pytest.raises(RunError, match="run.log: no regular file"):
+    with pytest.raises(RunError, match="run.log: not a regular file"):
         run_missing([Task("run", tmp_path, RunOptions(house="A"))], scripts, 1, print)
 
 

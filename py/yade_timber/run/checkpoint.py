@@ -19,11 +19,16 @@ import yade.wrapper as yw
 
 from .. import _class_names
 from ..base.atomic_write import written_from_memory
-from ..base.errors import RunError
-from ..base.input_file import require_regular
+from ..base.errors import RunError, os_errors
+from ..base.json_types import decode, table
+from ..base.record_file import record
+from ..recording.events import Event
+from ..recording.summary import ModesAt
 
 NAME = "checkpoint.yade"
 REMEDY = "run without --resume to start anew"
+Progress = table("Progress", wall_s=float, samples=int, events=list[Event], peaks=dict[str, float],
+                 modes=ModesAt | None, upright=list)
 CLASSES = {*_class_names, "Aabb", "ForceResetter", "InsertionSortCollider", "InteractionLoop"}
 """Classes of objects in a run's scene."""
 O = yw.Omega()
@@ -41,17 +46,18 @@ def save(path, identity, progress):
 def load(path, identity):
     """Load the saved scene; returns `progress` as saved. Raises RunError for damage or another identity."""
     path = Path(path)
-    require_regular(path)
-    if path.stat().st_uid != os.geteuid():  # YADE's loader is not safe against every forged file
-        raise RunError(f"{path}: belongs to another user; copy it if you trust its origin, or {REMEDY}")
+    with record(path) as file:
+        if os.fstat(file.fileno()).st_uid != os.geteuid():  # YADE's loader is not safe against every forged file
+            raise RunError(f"{path}: belongs to another user; copy it if you trust its origin, or {REMEDY}")
+        with os_errors(lambda fault: f"{path}: cannot read the checkpoint: {fault}"):
+            content = file.read()
     try:
-        body, _, line = path.read_bytes().rpartition(b"\n")
+        body, _, line = content.rpartition(b"\n")
         seal = json.loads(line)
-        complete = hashlib.sha256(body).hexdigest() == seal["sha256"]
-    except (ValueError, KeyError, TypeError):
+        complete = hashlib.sha256(body).hexdigest() == seal["sha256"] and isinstance(seal["identity"], dict)
+        decode(Progress, seal["progress"])
+    except (ValueError, KeyError, TypeError, RecursionError):
         complete = False
-    except OSError as problem:
-        raise RunError(f"{path}: cannot read the checkpoint: {problem.strerror}") from None
     if not complete:
         raise RunError(f"{path}: damaged, or not a checkpoint of this package; {REMEDY}")
     _require_same(path, seal["identity"], identity)
