@@ -14,7 +14,7 @@ function(timber_module name kernel folder)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)
   target_link_libraries(${name} PRIVATE ${kernel} Yade::Yade)
   target_link_options(${name} PRIVATE -Wl,-z,defs -Wl,--as-needed)
-  target_precompile_headers(${name} PRIVATE pkg/pch.hpp)
+  target_precompile_headers(${name} PRIVATE <pch.hpp>)
   set_target_properties(${name} PROPERTIES
     UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12 # the headers of YADE instantiate half a minute of templates in each unit
     PREFIX "" OUTPUT_NAME _yade_timber INSTALL_RPATH ${YADE_LIB_DIR} BUILD_RPATH ${YADE_LIB_DIR} LIBRARY_OUTPUT_DIRECTORY ${package_dir}/${folder})
