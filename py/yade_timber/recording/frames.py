@@ -29,6 +29,7 @@ Frames are recorded FRAMES_PER_SECOND times per simulated second from t = 0, and
 ended, the frames and contacts up to its last checkpoint are in frames.log beside the file (frame_log.py), which `load`
 reads, too.
 """
+import io
 import json
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -37,7 +38,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from ..base.atomic_write import written_from_memory
+from ..base.atomic_write import write_bytes
 from ..base.errors import RunError
 from ..base.json_types import encode
 from ..base.time_step import rest_stride
@@ -245,7 +246,8 @@ def placed(vertices, position, orientation):
 
 def save(path, frames):
     """Write the file. A kill at any moment leaves a complete file, the earlier or the new one. Raises OSError."""
-    with written_from_memory(path) as memory, open(memory, "w+b") as stream, h5py.File(stream, "w") as file:
+    memory = io.BytesIO()  # HDF5 crashes where it cannot write
+    with h5py.File(memory, "w") as file:
         file.attrs.update({"format": FORMAT, **{name: getattr(frames, name) for name in ATTRIBUTES},
                            "ended": frames.summary is not None})
         if frames.summary is not None:
@@ -263,6 +265,7 @@ def save(path, frames):
             _save_group(file.create_group("history"), frames.history._asdict())
         if frames.breaks is not None:
             _save_group(file.create_group("breaks"), frames.breaks)
+    write_bytes(path, memory.getbuffer())
 
 
 def _save_group(group, values):

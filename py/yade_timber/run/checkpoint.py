@@ -9,10 +9,12 @@ YADE's loader creates whatever object the file names, also a PyRunner, which run
 such class, with its namespace, before the first object of it; a file that names other classes than a run writes is
 refused before YADE reads it. `sha256` finds damage, not forgery.
 """
+import errno
 import hashlib
 import json
 import os
 import re
+import resource
 from pathlib import Path
 
 import yade.wrapper as yw
@@ -37,10 +39,21 @@ O = yw.Omega()
 def save(path, identity, progress):
     """Save the scene, whole or not at all. identity: see identity.py; progress: what `load` returns. Raises OSError."""
     with written_from_memory(path) as memory:
-        O.save(str(memory), quiet=True)
+        _save(memory)
         seal = {"identity": identity, "progress": progress, "sha256": hashlib.sha256(memory.read_bytes()).hexdigest()}
         with open(memory, "ab") as file:
             file.write(b"\n" + json.dumps(seal).encode())
+
+
+def _save(path):
+    """Save the scene. Raises OSError, also where Boost says no more than 'output stream error'."""
+    try:
+        O.save(str(path), quiet=True)
+    except RuntimeError as problem:
+        limit = resource.getrlimit(resource.RLIMIT_FSIZE)[0]
+        limited = limit != resource.RLIM_INFINITY and path.stat().st_size >= limit
+        number, reason = (errno.EFBIG, os.strerror(errno.EFBIG)) if limited else (errno.EIO, str(problem))
+        raise OSError(number, reason) from None
 
 
 def load(path, identity):

@@ -76,6 +76,11 @@ class Task:
         """One of STATES."""
         return "failed" if self.error else "done" if self.summary is not None else "unfinished"
 
+    def record(self, error):
+        """Write run.json. error: message of a failed run, None of others"""
+        content = {"status": "failed" if error else "done", "error": error}
+        write_text(self.folder / END, json.dumps(content) + "\n")
+
     def is_missing(self, retry):
         """Whether the run is to be started; retry: failed runs, too."""
         return self.summary is None and (retry or not self.error)
@@ -105,6 +110,9 @@ def run_missing(tasks, scripts, jobs=None, report=print, retry=True):
     """
     tasks = list(dict.fromkeys(tasks))
     missing = [task for task in tasks if task.is_missing(retry)]
+    for task in set(tasks).difference(missing):
+        if not os.path.lexists(task.folder / END):  # its driver was killed before the run ended
+            task.record(None)
     if missing:
         report(f"{len(missing)} of {len(tasks)} runs to do")
         _run_all(missing, scripts, jobs or processors(), report)
@@ -172,7 +180,7 @@ class _Process:
         if ended_by in STOPS:
             return f"stopped by {ended_by}; the next start continues this run"
         error = f"crashed ({ended_by}); see {self.task.folder / LOG}" if ended_by else self._error()
-        write_text(self.task.folder / END, json.dumps({"status": "failed" if error else "done", "error": error}) + "\n")
+        self.task.record(error)
         if error:
             return f"failed: {error}"
         again = " again (other options, files or package)" if self.outdated else ""
