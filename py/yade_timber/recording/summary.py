@@ -5,8 +5,8 @@ from pathlib import Path
 
 from ..base.atomic_write import write_text
 from ..base.errors import RunError
-from ..base.input_file import require_regular
 from ..base.json_types import decode, encode, optional, others, table
+from ..base.record_file import read_record
 from .events import Event, StructureFallen
 from .verdict import Structure
 
@@ -78,11 +78,11 @@ class Summary(Values):
     def read(cls, folder):
         """Of the run in a folder. Raises RunError."""
         path = Path(folder) / NAME
-        require_regular(path, "no finished run is there: an interrupted one has no summary before it is resumed to its"
-                              " end, a town has those of its lots")
+        text = read_record(path, "no finished run is there: an interrupted one has no summary before it is resumed to"
+                                 " its end, a town has those of its lots")
         try:
-            return parse(path.read_text(encoding="utf-8"))
-        except (OSError, ValueError) as problem:
+            return parse(text)
+        except (ValueError, RecursionError) as problem:
             raise RunError(f"{path}: cannot be read as the summary of a run: {problem}; {ANEW}") from None
 
     def write(self, folder):
