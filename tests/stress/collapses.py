@@ -189,19 +189,19 @@ def outcome(case):
     except RuntimeError as problem:
         error = str(problem)
         watch.sample()
-    return judged(case, watch, error, time.perf_counter() - since)
+    return judged(case.name, watch, error, time.perf_counter() - since, yt.energy())
 
 
-def judged(case, watch, error, wall):
-    """Outcome of the run that is loaded. wall [s]"""
-    terms, forces = yt.energy(), find_engine(yw.ContactForces)
-    supplied = terms.get("ground_motion", 0.0) - terms["gravity"]
+def judged(name, watch, error, wall, terms):
+    """Outcome of the run that is loaded. wall [s]; terms: of the energy balance [J]"""
+    forces = find_engine(yw.ContactForces)
+    supplied = terms.get("ground_motion", 0.0) + terms["imposed_velocity"] - terms["gravity"]
     energies = {"change": forces.worstChange, "created": forces.created, "negative": watch.fall}
     energies["residual"] = abs(yt.energy_residual(terms))
     shares = {name: value / supplied if supplied > 0 else math.inf for name, value in energies.items()}
     counts = {"sweeps": forces.sweepsDone / max(1, O.iter), "unconverged": forces.unconverged}
     extremes = {"term": watch.term, "spin": watch.spin, "speed": watch.speed}
-    return Outcome(case.name, error, O.time, supplied, **counts, **shares, **extremes, wall=wall)
+    return Outcome(name, error, O.time, supplied, **counts, **shares, **extremes, wall=wall)
 
 
 # --- sets -------------------------------------------------------------------------------------------------------------
