@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Judges of a scene: energies, overlaps of cores by `true_overlap`, speeds, rest, forces on the fixed bodies."""
-import itertools
+"""Judges of a scene: energies, overlaps of cores, speeds, rest, forces on the fixed bodies."""
 import math
 import pathlib
 import sys
@@ -16,17 +15,13 @@ import yade_timber as yt
 from assembly_cases import load_on_fixed, weight
 from cases import G
 from collapses import SAMPLE, Watch, judged
-from true_overlap import Core, overlap
+from overlap_watch import bodies
 from yade_timber.scene.engines import gravity_now
 
 O = yw.Omega()
 
 RESIDUAL = 1e-4
 """Of the energy balance over the energy put in. [-]"""
-OVERLAP_SHARE = 0.1
-"""Overlap that no load explains, over the smaller rounding radius. [-]"""
-TRAVEL = 2
-"""Relative displacement of fast bodies that counts as explained overlap. [steps]"""
 SPEED_SHARE = 1.5
 """Largest speed over that of the fall plus that of the ground [-]: a light body struck by a heavy one leaves with 1 +
 e_r = 1.12 times its speed, an end of a falling column with 3^(1/2) / 2^(1/2) = 1.22 times that of a free fall."""
@@ -34,8 +29,6 @@ CREEP, CREEP_TIME = 1e-5, 0.5
 """Largest mean speed of a corner [m/s] in the last seconds [s] of a scene at rest."""
 WEIGHT = 1e-4
 """Difference of the force on the fixed bodies from the weight, at rest. [-]"""
-OVERLAPS = 0.5
-"""Time between two measurements of overlaps. [s]"""
 
 
 @dataclass
@@ -57,9 +50,6 @@ class Verdict:
     outcome: object
     plan: Plan
     speed_limit: float  # [m/s]
-    deepest: float  # largest overlap [m]
-    unexplained: float  # largest excess of an overlap over its bound [m]
-    pair: str  # that has it
     moved: float  # largest displacement of a body [m]
     creep: float  # at the end [m/s]
     weight: float  # error of the contact and joint forces on fixed bodies [-]
@@ -70,7 +60,7 @@ class Verdict:
         """Words for all that is not sound; empty for a sound scene."""
         run, found = self.outcome, list(self.outcome.faults())
         bounds = [("residual", run.residual, RESIDUAL), ("speed", run.speed, self.speed_limit),
-                  ("unconverged steps", run.unconverged, 0), (f"overlap {self.pair}", self.unexplained, 0.0)]
+                  ("unconverged steps", run.unconverged, 0), (f"overlap {run.pair}, by", run.unexplained, 0.0)]
         if self.plan.stands is not None:
             bounds.append(("moved", self.moved, self.plan.stands))
         if self.plan.rests and not run.error:
@@ -82,7 +72,7 @@ class Verdict:
         """Line of the table."""
         run = self.outcome
         shares = f"{run.created:8.0e} {run.residual:8.0e} {run.unconverged:5} {run.sweeps:6.1f}"
-        lengths = f"{1e3 * self.deepest:7.2f} {1e3 * self.unexplained:7.2f} {1e3 * self.moved:8.2f}"
+        lengths = f"{1e3 * run.deepest:7.2f} {1e3 * run.unexplained:7.2f} {1e3 * self.moved:8.2f}"
         forces = f"{self.creep:8.0e} {self.weight:8.0e}"
         speeds = f"{run.speed:6.2f} {self.speed_limit:6.2f}"
         words = "; ".join(self.faults()) or "sound"
@@ -93,17 +83,12 @@ HEADER = (f"{'scene':14} {'created':>8} {'residual':>8} {'unc.':>5} {'sweeps':>6
           f"{'moved/mm':>8} {'m/s':>6} {'limit':>6} {'creep':>8} {'weight':>8} {'cpu/s':>5}")
 
 
-def bodies():
-    return [b for b in O.bodies if b is not None]
-
-
 class SceneWatch(Watch):
     """Extremes of the scene that is loaded, also while bodies are erased and added."""
 
     def __init__(self, plan):
         super().__init__()
-        self.plan, self.cores, self.erased = plan, {}, {}
-        self.deepest, self.unexplained, self.pair = 0.0, -math.inf, ""
+        self.plan, self.erased = plan, {}
         self.top = max(corners[:, 2].max() for corners in self.corners().values())
 
     def energies(self):
@@ -122,52 +107,9 @@ class SceneWatch(Watch):
         self.free = [b for b in bodies() if b.dynamic]
         super().sample()
 
-    def placed(self):
-        """Body id -> placed core."""
-        cores = {}
-        for b in bodies():
-            if b.id not in self.cores or self.cores[b.id][0] is not b.shape:
-                self.cores[b.id] = b.shape, Core(np.array(b.shape.vertices), b.shape.radius)
-            rotation = np.array(b.state.ori.toRotationMatrix()).reshape(3, 3)
-            cores[b.id] = self.cores[b.id][1].placed(np.array(b.state.pos), rotation)
-        return cores
-
     def corners(self):
         """Body id -> corners of its core in the world, of free bodies. [m]"""
-        return {k: core.corners for k, core in self.placed().items() if O.bodies[k].dynamic}
-
-    def measure_overlaps(self):
-        cores = self.placed()
-        bounds = {k: (c.corners.min(0) - c.radius, c.corners.max(0) + c.radius) for k, c in cores.items()}
-        for i, j in itertools.combinations(cores, 2):
-            (low, high), (other_low, other_high) = bounds[i], bounds[j]
-            apart = (low > other_high).any() or (other_low > high).any()
-            if apart or not (O.bodies[i].dynamic or O.bodies[j].dynamic):
-                continue
-            depth = overlap(cores[i], cores[j])
-            self.deepest = max(self.deepest, depth)
-            excess = depth - explained(i, j) if depth > 0 else -math.inf
-            if excess > self.unexplained:
-                self.unexplained, self.pair = excess, f"{i}-{j} {1e3 * depth:.2f} mm at {O.time:.1f} s, by"
-
-
-def explained(i, j):
-    """Largest overlap of a pair that its load, its motion in a step and the tolerance explain. [m]"""
-    a, b = O.bodies[i], O.bodies[j]
-    speed = (a.state.vel - b.state.vel).norm() + sum(
-        s.state.angVel.norm() * max(v.norm() for v in s.shape.vertices) for s in (a, b))
-    return overlap_of_load(i, j) + TRAVEL * O.dt * speed + OVERLAP_SHARE * min(a.shape.radius, b.shape.radius)
-
-
-def overlap_of_load(i, j):
-    """Overlap at which Hertz's law has the elastic force of the most loaded point of a pair of timber. [m]"""
-    if not (O.interactions.has(i, j) and O.interactions[i, j].isReal):
-        return 0.0
-    force = max((point[1] for point in O.interactions[i, j].phys.points), default=0.0)
-    pair = O.bodies[i], O.bodies[j]
-    modulus = 1 / sum((1 - b.material.poisson**2) / b.material.young for b in pair)
-    radius = 1 / sum((3 * b.state.mass / b.material.density / (4 * math.pi)) ** (-1 / 3) for b in pair)
-    return (force / (4 / 3 * modulus * math.sqrt(radius))) ** (2 / 3)
+        return {k: core.corners for k, core in self.overlaps.placed().items() if O.bodies[k].dynamic}
 
 
 def handed_over():
@@ -178,7 +120,7 @@ def handed_over():
 def advance(watch):
     """Run the scene that is loaded as planned; returns the mean speed of the fastest corner at the end. [m/s]"""
     plan, events = watch.plan, list(watch.plan.events)
-    samples, measured, before = 0, -math.inf, None
+    samples, before = 0, None
     while O.time < plan.duration - O.dt / 2:
         if before is None and O.time >= plan.duration - CREEP_TIME - O.dt / 2:
             before, since = watch.corners(), O.time
@@ -190,10 +132,8 @@ def advance(watch):
         while O.time < stop - O.dt / 2:
             O.step()
         watch.sample()
-        if O.time >= measured + OVERLAPS:
-            measured = O.time
-            watch.measure_overlaps()
-    watch.measure_overlaps()
+        watch.overlaps.measure_at_intervals()
+    watch.overlaps.measure()
     after = watch.corners()
     return max(np.linalg.norm(after[k] - before[k], axis=1).max() for k in after if k in before) / (O.time - since)
 
@@ -215,4 +155,4 @@ def judge(name, build, random):
     limit = SPEED_SHARE * (math.sqrt(2 * G * watch.top) + plan.speed)
     moved = max((b.state.pos - b.state.refPos).norm() for b in free)
     answer = plan.answer() if plan.answer and not error else []
-    return Verdict(outcome, plan, limit, watch.deepest, watch.unexplained, watch.pair, moved, creep, *loads, answer)
+    return Verdict(outcome, plan, limit, moved, creep, *loads, answer)

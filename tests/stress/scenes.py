@@ -131,13 +131,13 @@ def tower(random):
     """
     ground()
     radius, sides, yaw = random.uniform(0.15, 0.8), random.integers(3, 17), random.choice((0.0, random.uniform(0, 1)))
-    equal, flush = random.random() < 0.6, random.random() < 0.5
-    shift = 1e-4 * (1 + random.choice((0, 0.1, 1e-3)) * random.uniform(-1, 1)) if flush else (
+    equal, flush = random.random() < 0.75, random.random() < 0.6
+    shift = 1e-4 * (1 + random.choice((0, 1e-3, 1e-6)) * random.uniform(-1, 1)) if flush else (
         radius * 10 ** random.uniform(-6, -1.3))
-    if equal and random.random() < 0.5:
+    if equal and random.random() < 0.6:
         sides, yaw = 4, np.pi / 4
     top, density = 0.0, 10 ** random.uniform(2, 3.5, 2)
-    for k in range(random.integers(2, 9)):
+    for k in range(2 if flush else random.integers(2, 9)):
         if not equal:
             sides, yaw = random.integers(3, 17), random.uniform(0, 6)
         height = random.uniform(0.2, 1.0) * radius
