@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Collapses, and what their numbers are worth: convergence, energy created, negative dissipation, spin, residual.
+"""Collapses, and what their numbers are worth: convergence, energy created, negative dissipation, spin, residual,
+overlap.
 
 `yade -j1 -n -x tests/stress/collapses.py frames|scenes|weights|houses` prints the table of a set, row by row.
 """
@@ -11,9 +12,13 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
+if __name__ == "__main__":
+    sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a script without setting __file__
+
 import numpy as np
 import yade.wrapper as yw
 import yade_timber as yt
+from overlap_watch import Overlaps
 from yade_timber.house.loader import shipped_houses
 from yade_timber.motion import default_motion, synthetic_motion
 from yade_timber.motion.processing import trim
@@ -122,6 +127,9 @@ class Outcome:
     spin: float  # largest of a body [rad/s]
     speed: float  # largest of a body [m/s]
     residual: float  # of the energy balance, share [-]
+    deepest: float  # largest overlap of two bodies [m]
+    unexplained: float  # largest excess of an overlap over its bound [m]
+    pair: str  # that has the excess
     wall: float  # [s]
 
     def faults(self):
@@ -137,7 +145,8 @@ class Outcome:
         fault = f"STOPPED at {self.end:.2f} s: {self.error[:60]}" if self.error else "finished"
         shares = " ".join(f"{value:9.1e}" for value in (self.change, self.created, self.negative, self.residual))
         counts = f"{self.input / 1e3:9.2f} {self.sweeps:7.1f} {self.unconverged:8}"
-        extremes = f"{self.spin:8.0f} {self.speed:6.1f} {self.wall:6.0f}"
+        overlaps = f"{1e3 * self.deepest:7.2f} {1e3 * self.unexplained:7.2f}"
+        extremes = f"{self.spin:8.0f} {self.speed:6.1f} {overlaps} {self.wall:6.0f}"
         term = f" ({self.term})" if self.negative > NEGATIVE else ""
         return f"{self.name:28} {counts} {shares} {extremes}  {fault}{term}"
 
@@ -145,7 +154,7 @@ class Outcome:
 HEADER = (
     f"{'case':28} {'input/kJ':>9} {'sweeps':>7} {'unconv.':>8} {'change':>9} {'created':>9} {'negative':>9} "
     f"{'residual':>9} "
-    f"{'rad/s':>8} {'m/s':>6} {'wall/s':>6}")
+    f"{'rad/s':>8} {'m/s':>6} {'deep/mm':>7} {'over/mm':>7} {'wall/s':>6}")
 
 
 class Watch:
@@ -154,6 +163,7 @@ class Watch:
     def __init__(self):
         self.free = [b for b in O.bodies if b.dynamic]
         self.terms = self.dissipated()
+        self.overlaps = Overlaps()
         self.spin = self.speed = self.fall = 0.0
         self.term = ""
 
@@ -185,23 +195,27 @@ def outcome(case):
             while O.time < stop - O.dt / 2:
                 O.step()
             watch.sample()
+            watch.overlaps.measure_at_intervals()
+        watch.overlaps.measure()
         find_engine(yw.HealthCheck).check()
     except RuntimeError as problem:
         error = str(problem)
         watch.sample()
-    return judged(case, watch, error, time.perf_counter() - since)
+    return judged(case.name, watch, error, time.perf_counter() - since, yt.energy())
 
 
-def judged(case, watch, error, wall):
-    """Outcome of the run that is loaded. wall [s]"""
-    terms, forces = yt.energy(), find_engine(yw.ContactForces)
-    supplied = terms.get("ground_motion", 0.0) - terms["gravity"]
+def judged(name, watch, error, wall, terms):
+    """Outcome of the run that is loaded. wall [s]; terms: of the energy balance [J]"""
+    forces = find_engine(yw.ContactForces)
+    supplied = terms.get("ground_motion", 0.0) + terms["imposed_velocity"] - terms["gravity"]
     energies = {"change": forces.worstChange, "created": forces.created, "negative": watch.fall}
     energies["residual"] = abs(yt.energy_residual(terms))
     shares = {name: value / supplied if supplied > 0 else math.inf for name, value in energies.items()}
     counts = {"sweeps": forces.sweepsDone / max(1, O.iter), "unconverged": forces.unconverged}
     extremes = {"term": watch.term, "spin": watch.spin, "speed": watch.speed}
-    return Outcome(case.name, error, O.time, supplied, **counts, **shares, **extremes, wall=wall)
+    found = watch.overlaps
+    overlaps = {"deepest": found.deepest, "unexplained": found.unexplained, "pair": found.pair}
+    return Outcome(name, error, O.time, supplied, **counts, **shares, **extremes, **overlaps, wall=wall)
 
 
 # --- sets -------------------------------------------------------------------------------------------------------------

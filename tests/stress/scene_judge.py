@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Judges of a scene: energies, overlaps of cores, speeds, rest, forces on the fixed bodies."""
+import math
+import pathlib
+import sys
+import time
+from dataclasses import dataclass, field
+
+TESTS = pathlib.Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(TESTS / "physics"), str(TESTS)]
+
+import numpy as np
+import yade.wrapper as yw
+import yade_timber as yt
+from assembly_cases import load_on_fixed, weight
+from cases import G
+from collapses import SAMPLE, Watch, judged
+from overlap_watch import bodies
+from yade_timber.scene.engines import gravity_now
+
+O = yw.Omega()
+
+RESIDUAL = 1e-4
+"""Of the energy balance over the energy put in. [-]"""
+SPEED_SHARE = 1.5
+"""Largest speed over that of the fall plus that of the ground [-]: a light body struck by a heavy one leaves with 1 +
+e_r = 1.12 times its speed, an end of a falling column with 3^(1/2) / 2^(1/2) = 1.22 times that of a free fall."""
+CREEP, CREEP_TIME = 1e-5, 0.5
+"""Largest mean speed of a corner [m/s] in the last seconds [s] of a scene at rest."""
+WEIGHT = 1e-4
+"""Difference of the force on the fixed bodies from the weight, at rest. [-]"""
+
+
+@dataclass
+class Plan:
+    """What is done in a scene and expected of it; its bodies, `O.dt` and `O.engines` are in YADE."""
+
+    duration: float  # [s]
+    events: list = field(default_factory=list)  # (time [s], function), in order of time
+    rests: bool = True  # at the end
+    stands: float = None  # largest displacement of a body, None: any [m]
+    speed: float = 0.0  # of the ground, and of bodies at the start [m/s]
+    answer: callable = None  # at the end -> words for what is wrong
+
+
+@dataclass
+class Verdict:
+    """Of a scene. outcome: collapses.Outcome, shares of the energy put in."""
+
+    outcome: object
+    plan: Plan
+    speed_limit: float  # [m/s]
+    moved: float  # largest displacement of a body [m]
+    creep: float  # at the end [m/s]
+    weight: float  # error of the contact and joint forces on fixed bodies [-]
+    handed: float  # of the forces that YADE's container has for them [-]
+    answer: list
+
+    def faults(self):
+        """Words for all that is not sound; empty for a sound scene."""
+        run, found = self.outcome, list(self.outcome.faults())
+        bounds = [("residual", run.residual, RESIDUAL), ("speed", run.speed, self.speed_limit),
+                  ("unconverged steps", run.unconverged, 0), (f"overlap {run.pair}, by", run.unexplained, 0.0)]
+        if self.plan.stands is not None:
+            bounds.append(("moved", self.moved, self.plan.stands))
+        if self.plan.rests and not run.error:
+            bounds += [("creep", self.creep, CREEP), ("weight", self.weight, WEIGHT),
+                       ("forces handed over", self.handed, WEIGHT)]
+        return found + [f"{name} {value:.2g}" for name, value, bound in bounds if not value <= bound] + self.answer
+
+    def row(self):
+        """Line of the table."""
+        run = self.outcome
+        shares = f"{run.created:8.0e} {run.residual:8.0e} {run.unconverged:5} {run.sweeps:6.1f}"
+        lengths = f"{1e3 * run.deepest:7.2f} {1e3 * run.unexplained:7.2f} {1e3 * self.moved:8.2f}"
+        forces = f"{self.creep:8.0e} {self.weight:8.0e}"
+        speeds = f"{run.speed:6.2f} {self.speed_limit:6.2f}"
+        words = "; ".join(self.faults()) or "sound"
+        return f"{run.name:14} {shares} {lengths} {speeds} {forces} {run.wall:5.1f}  {words}"
+
+
+HEADER = (f"{'scene':14} {'created':>8} {'residual':>8} {'unc.':>5} {'sweeps':>6} {'deep/mm':>7} {'over/mm':>7} "
+          f"{'moved/mm':>8} {'m/s':>6} {'limit':>6} {'creep':>8} {'weight':>8} {'cpu/s':>5}")
+
+
+class SceneWatch(Watch):
+    """Extremes of the scene that is loaded, also while bodies are erased and added."""
+
+    def __init__(self, plan):
+        super().__init__()
+        self.plan, self.erased = plan, {}
+        self.top = max(corners[:, 2].max() for corners in self.corners().values())
+
+    def energies(self):
+        """Terms of the energy balance without what bodies that were erased or added have changed. [J]"""
+        return {name: value - self.erased.get(name, 0.0) for name, value in yt.energy().items()}
+
+    def change(self, event):
+        """Let an event change the scene. Terms of the balance follow within a step."""
+        before = self.energies()
+        event()
+        O.step()
+        self.erased = {name: value - before.get(name, 0.0) for name, value in yt.energy().items()}
+        self.top = max(self.top, *(corners[:, 2].max() for corners in self.corners().values()))
+
+    def sample(self):
+        self.free = [b for b in bodies() if b.dynamic]
+        super().sample()
+
+    def corners(self):
+        """Body id -> corners of its core in the world, of free bodies. [m]"""
+        return {k: core.corners for k, core in self.overlaps.placed().items() if O.bodies[k].dynamic}
+
+
+def handed_over():
+    """Downward force on the fixed bodies in YADE's container. [N]"""
+    return -sum(O.forces.f(b.id)[2] for b in bodies() if not b.dynamic)
+
+
+def advance(watch):
+    """Run the scene that is loaded as planned; returns the mean speed of the fastest corner at the end. [m/s]"""
+    plan, events = watch.plan, list(watch.plan.events)
+    samples, before = 0, None
+    while O.time < plan.duration - O.dt / 2:
+        if before is None and O.time >= plan.duration - CREEP_TIME - O.dt / 2:
+            before, since = watch.corners(), O.time
+        while events and events[0][0] <= O.time + O.dt / 2:
+            watch.change(events.pop(0)[1])
+        samples += 1
+        stop = min([samples * SAMPLE, plan.duration, *(when for when, _ in events[:1])])
+        samples -= stop < samples * SAMPLE
+        while O.time < stop - O.dt / 2:
+            O.step()
+        watch.sample()
+        watch.overlaps.measure_at_intervals()
+    watch.overlaps.measure()
+    after = watch.corners()
+    return max(np.linalg.norm(after[k] - before[k], axis=1).max() for k in after if k in before) / (O.time - since)
+
+
+def judge(name, build, random):
+    """Build a scene, run it -> Verdict. Errors of the health check end it."""
+    O.reset()
+    plan = build(random)
+    watch, since, error, creep = SceneWatch(plan), time.process_time(), "", math.inf
+    try:
+        creep = advance(watch)
+    except RuntimeError as problem:
+        error = str(problem)
+        watch.sample()
+    outcome = judged(name, watch, error, time.process_time() - since, watch.energies())
+    free = [b for b in bodies() if b.dynamic]
+    downward = -weight() * gravity_now()[2] / G
+    loads = [abs(load / downward - 1) if downward else 0.0 for load in (load_on_fixed(), handed_over())]
+    limit = SPEED_SHARE * (math.sqrt(2 * G * watch.top) + plan.speed)
+    moved = max((b.state.pos - b.state.refPos).norm() for b in free)
+    answer = plan.answer() if plan.answer and not error else []
+    return Verdict(outcome, plan, limit, moved, creep, *loads, answer)
