@@ -155,9 +155,8 @@ ContactForces::IslandResult ContactForces::solveIsland(timber::Islands::Island i
 		        += addForce(timber::storeForces(solver, k, pair(k).phys->properties(), result.energies),
 		                pair(k).id1, pair(k).id2);
 	for (int k = pairCount; k < count; ++k)
-		result.imposedWork += addForce(
-		        storeJoint(solver, k - pairCount, *scene, joint(k), result.joints), joint(k).joint->id1,
-		        joint(k).joint->id2);
+		result.imposedWork += addForce(storeJoint(solver, k - pairCount, *scene, joint(k), result.joints),
+		        joint(k).joint->id1, joint(k).joint->id2);
 	return result;
 }
 

@@ -132,8 +132,7 @@ ImplicitJointResult findImplicitJoints(const Scene& scene, const std::vector<tim
 void prepareJoint(timber::ContactSolver& solver, size_t k, const ImplicitJoint& implicit, const Scene& scene)
 {
 	TimberJoint& joint = *implicit.joint;
-	timber::ModalConstraint& c
-	        = solver.prepareJoint(k, joint.modes, axesOf(scene, joint.id1), joint.dampingRatio);
+	timber::ModalConstraint& c = solver.prepareJoint(k, joint.modes, axesOf(scene, joint.id1), joint.dampingRatio);
 	if (implicit.isStiff) timber::addSprings(c, springSteps(joint, scene));
 }
 

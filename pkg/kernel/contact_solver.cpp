@@ -76,8 +76,7 @@ size_t ContactSolver::addJoint(int bodyA, int bodyB)
 ModalConstraint& ContactSolver::prepareJoint(size_t k, const JointModes& modes, const Mat3& axesA, double ratio)
 {
 	assert(k < joints.size());
-	timber::prepareModes(
-	        joints[k], (*bodies)[joints[k].bodyA], (*bodies)[joints[k].bodyB], modes, axesA, ratio, h);
+	timber::prepareModes(joints[k], (*bodies)[joints[k].bodyA], (*bodies)[joints[k].bodyB], modes, axesA, ratio, h);
 	return joints[k];
 }
 

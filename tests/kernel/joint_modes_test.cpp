@@ -240,8 +240,7 @@ TEST(JointModes, OldOnesAddNoEnergy)
 			EXPECT_GE(solver.joint(k).dissipated, -1e-6 * before) << trial << " " << h;
 			dissipated += solver.joint(k).dissipated;
 		}
-		EXPECT_NEAR(kineticEnergy(assembly.bodies) + dissipated, before, 1e-6 * before)
-		        << trial << " " << h;
+		EXPECT_NEAR(kineticEnergy(assembly.bodies) + dissipated, before, 1e-6 * before) << trial << " " << h;
 	}
 }
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Joints that a step does not resolve: their strength limits what they transmit, and those that yield create no energy."""
+"""Joints that a step does not resolve: their strength limits what they transmit, yielding ones create no energy."""
 import pytest
 import yade.wrapper as yw
 import yade_timber as yt
