@@ -71,7 +71,7 @@ def test_an_imposed_velocity_does_not_overload_a_stiff_joint(late, stiffness):
         O.step()
         largest = max(largest, sum(spring["force"].norm() for spring in joint.springs))
     # The force is the mean of a step. A stiff joint takes up the velocity in its first one: m v / h times y / (4 + y),
-    # y = (h omega)^2. It keeps the energy share 1 / (1 + y / 4); the mean force has the amplitude m v omega / (1 + y / 4)
+    # y = (h omega)^2. It keeps the energy share 1 / (1 + y / 4); the mean force the amplitude m v omega / (1 + y / 4)
     phase = O.dt * omega
     expected = exact / (1 + phase**2 / 4) * max(1, phase / 4)
     assert 0.95 * expected < largest < 1.1 * exact
