@@ -52,8 +52,8 @@ TEST(Oscillator, HasTheDampingRatioInEachDirection)
 		}
 }
 
-/// One step multiplies the modal velocity by (1 - x + g) / (1 + x + g), x = h zeta omega, with g = (h omega)^2 / 4 of the
-/// implicit springs for h omega > 1: it never changes its energy upwards, however large x is.
+/// One step multiplies the modal velocity by (1 - x + g) / (1 + x + g), x = h zeta omega, with g = (h omega)^2 / 4 of
+/// the implicit springs of a stiff joint: it never changes its energy upwards, however large x is.
 TEST(Oscillator, IsStableAtAnyRate)
 {
 	for (const double x : { 1e-3, 0.9, 1e3, 1e6 }) {
