@@ -18,6 +18,8 @@ namespace {
 		if (square == 0) return mean;
 		const double missing = end.energy - start.energy + end.dissipated - mean.dot(way),
 		             largest = (end.force - start.force).norm() / 2 * std::sqrt(square);
+		// On a short way the rounding of the energies would be a force
+		if (std::abs(missing) <= springTolerance * (start.energy + end.energy + end.dissipated)) return mean;
 		return mean + std::max(-largest, std::min(missing, largest)) / square * way;
 	}
 
