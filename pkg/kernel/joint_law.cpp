@@ -152,8 +152,7 @@ void BrittleSprings::weaken(SpringState& state, double share) const
 	const double work = 2 * state.energy;
 	const Vec3 pulled = stiffness * state.force;
 	state.tangent.setZero();
-	if (work > 0)
-		state.tangent = share * (stiffness - pulled * pulled.transpose() / state.force.dot(pulled));
+	if (work > 0) state.tangent = share * (stiffness - pulled * pulled.transpose() / state.force.dot(pulled));
 	state.force *= share;
 	state.energy = share * share * work / 2;
 	state.dissipated = share * (1 - share) * work;

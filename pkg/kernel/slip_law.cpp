@@ -148,15 +148,13 @@ namespace {
 SlipForce slipForce(const SlipLaw& law, const SlipHistory& history, const Vec3& stretch)
 {
 	assert(law.isValid() && isFinite(history.plastic) && history.largest >= 0 && isFinite(stretch));
-	return forceOf(law, history, stretch,
-	        growth(law, history.largest, std::max(history.largest, stretch.norm())));
+	return forceOf(law, history, stretch, growth(law, history.largest, std::max(history.largest, stretch.norm())));
 }
 
 SlipForce heldSlipForce(const SlipLaw& law, const SlipHistory& history, const Vec3& stretch, Mat3& tangent)
 {
 	assert(law.isValid() && isFinite(history.plastic) && history.largest >= 0 && isFinite(stretch));
-	const SlipGrowth g
-	        = heldGrowth(law, history.largest, std::max(history.largest, stretch.norm()));
+	const SlipGrowth g = heldGrowth(law, history.largest, std::max(history.largest, stretch.norm()));
 	tangent = tangentOf(law, history, stretch, g);
 	return forceOf(law, history, stretch, g);
 }
@@ -233,15 +231,14 @@ SpringState SlipSprings::projected(const SlipForce& force, const Mat3& tangent) 
 SpringState SlipSprings::trial(size_t spring, const Vec3&, const Vec3& to) const
 {
 	Mat3 tangent;
-	const SlipForce force = heldSlipForce(
-	        law, { histories.plastic[spring], histories.largest[spring] }, onAxis(to), tangent);
+	const SlipForce force
+	        = heldSlipForce(law, { histories.plastic[spring], histories.largest[spring] }, onAxis(to), tangent);
 	return projected(force, tangent);
 }
 
 SpringState SlipSprings::commit(size_t spring, const Vec3&, const Vec3& to)
 {
-	const SlipForce force
-	        = slipForce(law, { histories.plastic[spring], histories.largest[spring] }, onAxis(to));
+	const SlipForce force = slipForce(law, { histories.plastic[spring], histories.largest[spring] }, onAxis(to));
 	histories.plastic[spring] = force.history.plastic;
 	histories.largest[spring] = force.history.largest;
 	SpringState state = projected(force, Mat3::Zero());

@@ -18,6 +18,8 @@ namespace {
 		if (square == 0) return mean;
 		const double missing = end.energy - start.energy + end.dissipated - mean.dot(way),
 		             largest = (end.force - start.force).norm() / 2 * std::sqrt(square);
+		// On a short way the rounding of the energies would be a force
+		if (std::abs(missing) <= springTolerance * (start.energy + end.energy + end.dissipated)) return mean;
 		return mean + std::max(-largest, std::min(missing, largest)) / square * way;
 	}
 
@@ -116,8 +118,8 @@ Mat6 SpringSteps::slope(const ModalStep& step, double kappa) const
 	for (size_t i = 0; i < springs.size(); ++i) {
 		const SpringStep& s = springs[i];
 		// With a shared strength the slope along one spring's way depends on the other springs
-		const Mat3 tangent = kappa > 0 ? Mat3(states[i].tangent / 2)
-		                               : meanTangent(states[i], s.force, s.stretch - s.from);
+		const Mat3 tangent
+		        = kappa > 0 ? Mat3(states[i].tangent / 2) : meanTangent(states[i], s.force, s.stretch - s.from);
 		matrix += s.rates.transpose() * tangent * s.rates;
 		if (kappa > 0) together += s.rates.transpose() * shared[i];
 	}
@@ -163,8 +165,9 @@ Vec6 SpringSteps::withinAccount(const ModalStep& step, const Vec6& free, const V
 {
 	const Vec6 sum = step.before + free + impulse, dashpots = -step.decay.cwiseProduct(sum),
 	           spring = impulse - dashpots + applied;
-	const double available = std::max(0., account);
-	if (spring.dot(sum) <= 2 * available) return impulse;
+	// Rounding of both sides is no excess: linear springs return all that they have stored
+	const double available = std::max(0., account), rounding = springTolerance * spring.norm() * sum.norm();
+	if (spring.dot(sum) <= 2 * available + rounding) return impulse;
 	// With the share s of `spring` the velocity after the step is (base + s spring) / (1 + x)
 	const Vec6 weight = (1 + step.decay.array()).inverse(),
 	           base = free - applied - step.decay.cwiseProduct(step.before);

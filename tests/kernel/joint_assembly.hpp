@@ -159,8 +159,7 @@ struct Assembly {
 				history.back().half.push_back(z);
 				history.back().forces.push_back(Vec3::Zero());
 				if (!j.broken[i])
-					history.back().account
-					        += springForce<double>(j.stiffness, z, j.normal).energy;
+					history.back().account += springForce<double>(j.stiffness, z, j.normal).energy;
 			}
 		}
 	}

@@ -88,18 +88,18 @@ TEST(Chain, TakesThePowerOfItsDashpots)
 	EXPECT_NEAR(power, v.dot(assembly.damping() * v), 1e-10 * power); // rounding
 }
 
-/// One step multiplies the modal velocity by (1 - x + g) / (1 + x + g), x = h zeta omega, with g = (h omega)^2 / 4 of the
-/// implicit springs for h omega > 1: it never changes its energy upwards, however large x is.
+/// One step multiplies the modal velocity by (1 - x + g) / (1 + x + g), x = h zeta omega, with g = (h omega)^2 / 4 of
+/// the implicit springs of a stiff joint: it never changes its energy upwards, however large x is.
 TEST(Oscillator, IsStableAtAnyRate)
 {
 	for (const double x : { 1e-3, 0.9, 1e3, 1e6 }) {
-		const double g = x > 1 ? x * x / 4 : 0;
+		const double g = x > 0.5 ? x * x / 4 : 0; // h omega > 1 of its fastest mode makes a joint stiff
 		Assembly one = oscillator(1);
 		one.setVelocities((Vector(12) << 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 0, 0).finished());
 		one.startSprings(x / std::sqrt(4 * 60000 / 8.));
 		one.damp(x / std::sqrt(4 * 60000 / 8.));
-		// Rounding of some products
-		EXPECT_NEAR(one.velocities()[8], 2 * (1 - x + g) / (1 + x + g), 1e-12) << x;
+		// Rounding of some products, and of terms that are g times as large as their difference
+		EXPECT_NEAR(one.velocities()[8], 2 * (1 - x + g) / (1 + x + g), 1e-12 + 1e-15 * g) << x;
 	}
 }
 
@@ -276,8 +276,7 @@ TEST(JointModes, OldOnesAddNoEnergy)
 			EXPECT_GE(solver.joint(k).dissipated, -1e-6 * before) << trial << " " << h;
 			dissipated += solver.joint(k).dissipated;
 		}
-		EXPECT_NEAR(kineticEnergy(assembly.bodies) + dissipated, before, 1e-6 * before)
-		        << trial << " " << h;
+		EXPECT_NEAR(kineticEnergy(assembly.bodies) + dissipated, before, 1e-6 * before) << trial << " " << h;
 	}
 }
 

@@ -13,8 +13,7 @@ TEST(Newmark, StiffSpringsSetNoLimitToTheStep)
 	const double start = 1e-4;
 	for (const double turn : { 1.1, 2., 10., 300. }) {
 		MassOnSpring m { 30, 5e7, start };
-		const double h = turn / m.omega(), y = turn * turn,
-		             phase = std::acos(1 - y / (2 + y / 2));
+		const double h = turn / m.omega(), y = turn * turn, phase = std::acos(1 - y / (2 + y / 2));
 		// Half a step earlier, on the orbit of start cos(phase k)
 		m.velocity() = start * (1 - std::cos(phase)) / h;
 		m.assembly.displacements = (Vector(12) << Vector::Zero(8), start, Vector::Zero(3)).finished();

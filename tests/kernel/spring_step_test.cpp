@@ -105,7 +105,8 @@ struct Row {
 				const Vec3 end = arm(s, 1);
 				const Vec3 stretch = positions[i + 1] - positions[i] - Vec3(0.2, 0, 0)
 				        + turns[i + 1].cross(arm(s, -1)) - turns[i].cross(end);
-				steps.push_back({ s, j.half[s], stretch, Vec3::Zero(), modes[i].rates(end), j.forces[s] });
+				steps.push_back(
+				        { s, j.half[s], stretch, Vec3::Zero(), modes[i].rates(end), j.forces[s] });
 			}
 			addSprings(c, SpringSteps(springLaw(j), steps, j.account, h));
 		}
@@ -181,12 +182,12 @@ TEST(StiffJoints, TransmitAtMostTheirStrength)
 					Row row { 10, k, 1000, 0, h, law, 1 };
 					row.start();
 					row.bodies[1].newVelocity = velocity;
-					const double before = row.total(),
-					             springs = law == Law::PerJoint ? 1 : 3;
+					const double before = row.total(), springs = law == Law::PerJoint ? 1 : 3;
 					int steps = 0;
 					const auto isWhole = [&] {
 						return std::count(row.joints[0].broken.begin(),
-						        row.joints[0].broken.end(), 0) > 0;
+						               row.joints[0].broken.end(), 0)
+						        > 0;
 					};
 					for (; steps < 100000 && isWhole(); ++steps)
 						row.step();
@@ -197,11 +198,11 @@ TEST(StiffJoints, TransmitAtMostTheirStrength)
 					EXPECT_LE(largest, 1000 * (1 + 1e-9)) << k << " " << h; // rounding
 					EXPECT_NEAR(row.total(), before, 1e-11 * before) << k << " " << h;
 					// Bodies turn where springs break one by one
-					EXPECT_LT(row.springs,
-					        fracture + 2.5 * springs * 1000 * h * velocity.norm())
+					EXPECT_LT(row.springs, fracture + 2.5 * springs * 1000 * h * velocity.norm())
 					        << k << " " << h << " " << velocity.transpose();
 					if (k * h * h * 3 / 10 > 1) { // broken in the first steps
-						EXPECT_LE(row.transmitted.norm(), 3 * springs * 1000 * h) << k << " " << h;
+						EXPECT_LE(row.transmitted.norm(), 3 * springs * 1000 * h)
+						        << k << " " << h;
 					}
 				}
 }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Joints that a step does not resolve: their strength limits what they transmit, and those that yield create no energy."""
+"""Joints that a step does not resolve: their strength limits what they transmit, yielding ones create no energy."""
 import pytest
 import yade.wrapper as yw
 import yade_timber as yt
@@ -41,7 +41,7 @@ def test_a_hammer_loses_what_the_strength_allows(per, stiffness, dt):
     taken = sum(O.bodies[k].state.mass * O.bodies[k].state.vel[0] for k in (struck, hammer)) - momentum
     breaks = find_engine(yw.JointEngine).breaks
     assert joint.isBroken and len(breaks) == len(points)
-    assert 0 <= taken <= STRENGTH * dt * steps * (1 + 1e-9)  # rounding
+    assert -1e-12 * abs(momentum) <= taken <= STRENGTH * dt * steps * (1 + 1e-9)  # rounding
     assert sum(one.force for one in breaks) <= STRENGTH * (1 + 1e-9)
     assert created_energy() <= CREATED * queries.energy()["kinetic"]
 
