@@ -176,8 +176,7 @@ ContactForces::IslandResult ContactForces::solveIsland(timber::Islands::Island i
 	});
 	result.convergence = solver.solve(tolerance);
 	for (int k = 0; k < pairCount; ++k) {
-		const timber::PairForce f
-		        = timber::storeForces(solver, k, pair(k).phys->properties(), result.energies);
+		const timber::PairForce f = timber::storeForces(solver, k, pair(k).phys->properties(), result.energies);
 		pair(k).phys->normalForce = f.normalOnB;
 		pair(k).phys->shearForce = f.onB - f.normalOnB;
 		addForce(island[k], f);

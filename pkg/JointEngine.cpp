@@ -51,8 +51,7 @@ namespace {
 		return a.kn == b.kn && a.ks == b.ks && a.strength == b.strength && a.perJoint == b.perJoint
 		        && a.law == b.law && a.dampingRatio == b.dampingRatio
 		        && (!a.yields()
-		                || (a.softeningStretch == b.softeningStretch
-		                        && a.ultimateStretch == b.ultimateStretch
+		                || (a.softeningStretch == b.softeningStretch && a.ultimateStretch == b.ultimateStretch
 		                        && a.frictionShare == b.frictionShare));
 	}
 }

@@ -345,8 +345,8 @@ void checkStep(const Scene& scene)
 	if (const Body* b = gravity > 0 ? thinnestBody(scene) : nullptr) {
 		const Real radius = roundedShape(*b)->radius, limit = math::sqrt(largestSinking * radius / gravity);
 		std::ostringstream cause;
-		cause << "the contacts of body " << b->getId() << ", which sinks in them by its weight (radius " << radius
-		      << " m)";
+		cause << "the contacts of body " << b->getId() << ", which sinks in them by its weight (radius "
+		      << radius << " m)";
 		if (scene.dt > limit) refuseStep(scene, cause.str(), limit);
 	}
 	const Real limit = jointStep(scene);

@@ -423,8 +423,8 @@ PairForce storeForces(ContactSolver& solver, size_t k, const PairProperties& pai
 			p[c] = step.get(&PointStep::impulse, c);
 		}
 		const Vec impulse = p[0] * axes[0] + p[1] * axes[1] + p[2] * axes[2], force = impulse / Number(h);
-		impulses.add<Number>(count, impulse, Vec(-armA.cross(impulse)), Vec(armB.cross(impulse)),
-		        Vec(p[0] * axes[0]));
+		impulses.add<Number>(
+		        count, impulse, Vec(-armA.cross(impulse)), Vec(armB.cross(impulse)), Vec(p[0] * axes[0]));
 		const Number e = record.get(&PointRecord::normalForce), K = record.get(&PointRecord::stiffness),
 		             n = record.get(&PointRecord::overlap), limit = Number(pair.friction) * (p[0] / Number(h)),
 		             none = 0.;

@@ -127,7 +127,8 @@ def pushed(steps):
     O.forces.setPermF(block, (3, 0, 5))
     O.forces.setPermT(block, (0, 0.1, 0))
     O.bodies.erase(gone)
-    O.run(steps, True)
+    if steps:
+        O.run(steps, True)
     return block
 
 
