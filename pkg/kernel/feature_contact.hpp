@@ -114,16 +114,34 @@ auto vertexFaceContact(const ShapePair& pair, const FeatureId* first, size_t cou
 	return valid;
 }
 
+/// Whether a vertex x is above a face beside an edge, within the flush limit, in the edge's frame.
+inline bool isAboveFaceOf(const ShapePair& pair, const Polyhedron& body, const Edge& edge, const Vec3& x)
+{
+	const auto isAbove = [&](int face) {
+		const Face& f = body.faces[face];
+		return projectsOntoFace<double>(
+		        f, x, std::min(pair.sideTolerance(), signedDistance<double>(f.plane, x)));
+	};
+	return isAbove(edge.left) || isAbove(edge.right);
+}
+
 /// Whether the contact of a vertex takes the place of the crossing of two edges. along: of the crossing; zone: from
-/// the ends [m]
+/// the ends [m]. Without vertex-edge contacts it is that with a face, which at an overlap of zero rounding decides.
 inline bool isReplacedByVertex(const ShapePair& pair, FeatureId id, double alongA, double alongB, double zone,
         const VertexContacts& vertices)
 {
-	const Edge &a = pair.a.core.edges[id.a()], &b = pair.b.core.edges[id.b()];
-	return (alongA <= zone && vertices.joinsA(a.tail, id.b(), b))
-	        || (alongA >= a.length - zone && vertices.joinsA(a.head, id.b(), b))
-	        || (alongB <= zone && vertices.joinsB(b.tail, id.a(), a))
-	        || (alongB >= b.length - zone && vertices.joinsB(b.head, id.a(), a));
+	const Polyhedron &coreA = pair.a.core, &coreB = pair.b.core;
+	const Edge &a = coreA.edges[id.a()], &b = coreB.edges[id.b()];
+	const auto joinsA = [&](int v) {
+		return pair.patterns.vertexEdge ? vertices.joinsA(v, id.b(), b)
+		                                : isAboveFaceOf(pair, coreB, b, pair.toB<double>(coreA.vertices[v]));
+	};
+	const auto joinsB = [&](int v) {
+		return pair.patterns.vertexEdge ? vertices.joinsB(v, id.a(), a)
+		                                : isAboveFaceOf(pair, coreA, a, pair.toA<double>(coreB.vertices[v]));
+	};
+	return (alongA <= zone && joinsA(a.tail)) || (alongA >= a.length - zone && joinsA(a.head))
+	        || (alongB <= zone && joinsB(b.tail)) || (alongB >= b.length - zone && joinsB(b.head));
 }
 
 /// Up to laneCount edges of A, each against an edge of B. The crossing must be inside both edges. Closer to an end than

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 #include <kernel/types.hpp>
+#include <limits>
 #include <vector>
 
 namespace timber::shapes {
@@ -16,7 +17,14 @@ public:
 	/// Distance of the hulls of two sets of points, 0 where they overlap. [m]
 	static double distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b)
 	{
-		return LeastNorm(a, b).solve().norm();
+		double least = std::numeric_limits<double>::infinity();
+		for (size_t start = 0; start < a.size() * b.size(); ++start) {
+			LeastNorm program(a, b);
+			const Vec3 x = program.solve(b[start % b.size()] - a[start / b.size()]);
+			least = std::min(least, x.norm());
+			if (program.isOptimal(x)) break; // else rounding ended it: from another start
+		}
+		return least;
 	}
 
 private:
@@ -97,9 +105,16 @@ private:
 			remove(first);
 		}
 	}
-	Vec3 solve()
+	/// Whether no point of the difference is closer to the origin by more than rounding.
+	bool isOptimal(const Vec3& x) const
 	{
-		corral = { b[0] - a[0] };
+		const double length = x.norm();
+		return length <= 1e-12 || length - x.dot(support(x)) / length <= 1e-11 * (1 + b[0].norm());
+	}
+	/// From a point of the difference.
+	Vec3 solve(const Vec3& start)
+	{
+		corral = { start };
 		weights = { 1 };
 		for (int step = 0; step < 1000; ++step) {
 			const Vec3 x = point(), next = support(x);

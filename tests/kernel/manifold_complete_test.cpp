@@ -17,7 +17,7 @@ using namespace timber::shapes;
 namespace {
 
 const Patterns all { true, true };
-const int trials = std::getenv("TRIALS") ? std::atoi(std::getenv("TRIALS")) : 1500; ///< of each kind
+const int trials = std::getenv("TRIALS") ? std::atoi(std::getenv("TRIALS")) : 600; ///< of each kind
 
 double distanceOf(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseB)
 {

@@ -24,7 +24,7 @@ def settled(lower, upper, seconds=0.5, **options):
     for _ in range(10):
         O.run(round(0.01 * seconds / O.dt), True)
         fastest = max(fastest, top.state.vel.norm(), top.state.angVel.norm())
-    force = sum(p.normal_force * p.normal[2] for p in yt.contacts(0, 1))
+    force = sum(p["normal_force"] * p["normal"][2] for p in yt.contacts(0, 1))
     return fastest, top, abs(force)
 
 
