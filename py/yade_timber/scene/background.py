@@ -87,7 +87,7 @@ GUARDED = (
     (yw.HouseMonitor, between_steps, ("energy", "peak", "rows")),
     (yw.StructureMonitor, between_steps, ("load", "opening", "pull", "rows", "shear")),
     (yw.JointEngine, between_steps, ("append", "breaks", "joints")),
-    (yw.TimberJoint, between_steps, ("broken", "forces", "largestStretches", "load", "plasticStretches", "springs",
+    (yw.TimberJoint, between_steps, ("broken", "cycles", "forces", "largestStretches", "load", "plasticStretches", "springs",
                                      "stretches")),
     (yw.ManifoldGeom, between_steps, ("points",)),
     (yw.ManifoldPhys, between_steps, ("points",)),
