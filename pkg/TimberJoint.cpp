@@ -172,8 +172,7 @@ void TimberJoint::pack(const shared_ptr<timber::PackedJoints>& to)
 TimberJoint::SpringVectors TimberJoint::lastSprings() const
 {
 	SpringVectors last { stretches, forces };
-	if (isPacked())
-		timber::unpackSprings(packed->first(packed->joints[index]), last.stretches, last.forces);
+	if (isPacked()) timber::unpackSprings(packed->first(packed->joints[index]), last.stretches, last.forces);
 	return last;
 }
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """House files of the plan of tiled_house with a given wall quantity, by Japanese rules.
 
-The counted sheets of a storey and direction are scaled by one factor, so that the existing wall quantity is the one that a rule
-requires for `grade`: 1.0, 1.25, 1.5. Nothing else is changed. Rules:
+The counted sheets of a storey and direction are scaled by one factor, so that the existing wall quantity is the one
+that a rule requires for `grade`: 1.0, 1.25, 1.5. Nothing else is changed. Rules:
 law    the building code's wall quantity times the grade
 label  the quantity of grade 2 (1.25) or 3 (1.5) of the housing performance labelling, which counts all walls; the code
        presumes that others than the counted ones carry a third

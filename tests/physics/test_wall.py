@@ -52,8 +52,8 @@ def test_shear_follows_the_backbone(tmp_path):
 
 @pytest.mark.parametrize("wall, points", [
     ("{multiplier: 2.5, reload_target: 1}", [(drift, 4900 * ratio) for drift, ratio in MEAN]),
-    ("{reload_target: 1, envelope: [[1/450, 2200], [1/300, 3600], [1/120, 6590], [1/75, 9100], [1/30, 13300], [1/20, 10600], [1/15, "
-     "9000]]}",
+    ("{reload_target: 1, envelope: [[1/450, 2200], [1/300, 3600], [1/120, 6590], [1/75, 9100], [1/30, 13300], "
+     "[1/20, 10600], [1/15, 9000]]}",
      [(1 / 450, 2200), (1 / 300, 3600), (1 / 120, 6590), (1 / 75, 9100), (1 / 30, 13300), (1 / 20, 10600),
       (1 / 15, 9000)]),
 ])

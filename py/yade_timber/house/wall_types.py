@@ -170,7 +170,7 @@ def _check_cycles(table, path):
     if table["friction_share"] is not None:
         for key in SAWS_STATES:
             if table[key] is not None:
-                fail(table.at(key), f"{path}.{key}", "does not go with friction_share, the law slip; remove one of them")
+                fail(table.at(key), f"{path}.{key}", "does not go with friction_share, the law slip; remove one")
         if table["residual_share"]:
             fail(table.at("residual_share"), f"{path}.residual_share",
                  "does not go with friction_share, the law slip; remove one of them")
