@@ -151,8 +151,8 @@ WallLaw::Bound WallLaw::bound(double u, const Line& p) const
 		const double slope = start < aim ? (end - p.at(start)) / (aim - start) : p.slope;
 		return { p, start, aim, { slope, p.at(start) - slope * start } };
 	}
-	const double slope
-	        = std::min(cycles.stiffness, cycles.reloadStiffness * std::pow(cycles.reloadStretch / aim, cycles.reloadPower));
+	const double slope = std::min(
+	        cycles.stiffness, cycles.reloadStiffness * std::pow(cycles.reloadStretch / aim, cycles.reloadPower));
 	const Line reload { slope, end - slope * aim };
 	const double start = slope > p.slope ? (p.offset - reload.offset) / (slope - p.slope) : least;
 	return { p, std::max(least, start), aim, reload };
@@ -215,7 +215,8 @@ public:
 			x = end;
 			return;
 		}
-		const double from = x + gap / closing, rest = line.at((from + end) / 2) - p.at((from + end) / 2) + p.offset;
+		const double from = x + gap / closing,
+		             rest = line.at((from + end) / 2) - p.at((from + end) / 2) + p.offset;
 		dissipated += closing / (unloading.slope - p.slope) * rest * (end - from);
 		reach(end, line.at(end));
 	}
@@ -224,7 +225,8 @@ public:
 	void followBackbone(double end, const Line& before, const Line& after)
 	{
 		if (x >= end) return;
-		const double from = std::min(end, law.crossing(unloading, x)), met = law.force(from), reached = law.force(end);
+		const double from = std::min(end, law.crossing(unloading, x)), met = law.force(from),
+		             reached = law.force(end);
 		const double lost = law.workTo(end) - law.workTo(from)
 		        - (law.energyOf(after, end, reached) - law.energyOf(before, from, met));
 		dissipated += std::max(0., lost);
@@ -301,7 +303,8 @@ WallForce WallLaw::hold(const WallHistory& history, double stretch) const
 	whole.tangent = 0;
 	const double from = strongest(history, stretch);
 	if (from == stretch) return whole;
-	WallForce held = from == history.stretch ? WallForce { 0, energy(history), 0, history } : advance(history, from);
+	WallForce held
+	        = from == history.stretch ? WallForce { 0, energy(history), 0, history } : advance(history, from);
 	const double force = held.history.force, before = held.energy;
 	held.history.stretch = stretch;
 	held.tangent = 0;

@@ -2,6 +2,7 @@
 """Storeys of the lumped-mass model (shear_model.py) from a house of the package. Needs no YADE."""
 import numpy as np
 from shear_model import SlipSpring, Storey, slip_spring
+from wall_spring import WallSpring
 
 from yade_timber.base.gravity import mass_of
 from yade_timber.base.joint_kinds import WALL_BEAM
@@ -34,16 +35,22 @@ def wall_joints(model, storey, direction):
 
 
 def wall_springs(model, storey, direction, height):
-    """A SlipSpring for each form of envelope in a storey: both halves of walls, whose stretch is the drift times the
-    height.
+    """A WallSpring, or a SlipSpring, for each form of envelope in a storey: both halves of walls, whose stretch is the
+    drift times the height.
     """
     sums = {}
     for j in wall_joints(model, storey, direction):
         stretches, forces = np.transpose(j.envelope)
-        form = j.friction_share, tuple(np.round(stretches / height, 9))
-        sums[form] = sums.get(form, 0.0) + np.array([j.kn * height, *forces]) / SHARE
-    return [SlipSpring(stiffness, share, list(zip(drifts, forces)))
-            for (share, drifts), (stiffness, *forces) in sums.items()]
+        friction = j.cycles.friction_force if j.law == "wall" else 0.0
+        lines = (j.cycles.reload_share, j.cycles.reload_target) if j.law == "wall" else j.friction_share
+        form = j.law, lines, round(friction / max(forces), 9), tuple(np.round(stretches / height, 9))
+        sums[form] = sums.get(form, 0.0) + np.array([j.kn * height, friction, *forces]) / SHARE
+    return [_spring(*form[:2], form[3], *values) for form, values in sums.items()]
+
+
+def _spring(law, lines, drifts, stiffness, friction, *forces):
+    points = list(zip(drifts, forces))
+    return WallSpring(stiffness, points, friction, *lines) if law == "wall" else SlipSpring(stiffness, lines, points)
 
 
 def column_ends(data, columns, width, height):

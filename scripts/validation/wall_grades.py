@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """House files of the plan of tiled_house with a given wall quantity, by Japanese rules.
 
-The sheets of a storey and direction are scaled by one factor, so that the existing wall quantity is the one that a rule
-requires for `grade`: 1.0, 1.25, 1.5. Nothing else is changed. Rules:
+The counted sheets of a storey and direction are scaled by one factor, so that the existing wall quantity is the one
+that a rule requires for `grade`: 1.0, 1.25, 1.5. Nothing else is changed. Rules:
 law    the building code's wall quantity times the grade
 label  the quantity of grade 2 (1.25) or 3 (1.5) of the housing performance labelling, which counts all walls; the code
        presumes that others than the counted ones carry a third
@@ -64,6 +64,14 @@ def required_share(grade, rule, ratio):
     return [first * (0.4 + 0.6 * ratio), second * (1.3 + 0.07 / ratio)]
 
 
+def scaled(table, factor):
+    """A wall type with a multiple of its shear and its multiplier."""
+    changed = {**table, "multiplier": factor * table["multiplier"]}
+    if "envelope" in table:
+        changed["envelope"] = [[drift, factor * shear] for drift, shear in table["envelope"]]
+    return changed
+
+
 def listed(value):
     """A list, or one value alone, as a house file may have it."""
     return value if isinstance(value, (list, tuple)) else [value]
@@ -76,7 +84,7 @@ def graded_house(grade, level, rule):
     walls, types = [], {}
     for (storey, direction), factor in factors(model, data["wall_types"], grade, rule).items():
         for name, table in data["wall_types"].items():
-            types[f"{name}{storey}{direction}"] = {**table, "multiplier": factor * table["multiplier"]}
+            types[f"{name}{storey}{direction}"] = scaled(table, 1.0 if table.get("finish") else factor)
         for line in data["structures"][STRUCTURE]["walls"]:
             if line["along"] == "xy"[AXES[direction]] and storey in listed(line.get("storeys", (1, 2))):
                 names = [f"{name}{storey}{direction}" for name in listed(line["type"])]

@@ -90,8 +90,7 @@ TEST(WallLaw, LinesOfACycle)
 		const double a = 0.02, B = backbone(a), aim = target * a;
 		for (const double d : { a, -a })
 			spring.lead(d);
-		const double slack = a - (B - Ff) / k, start = c * slack,
-		             slope = (backbone(aim) - Ff) / (aim - start);
+		const double slack = a - (B - Ff) / k, start = c * slack, slope = (backbone(aim) - Ff) / (aim - start);
 		const auto expect = [&](double d, double force) {
 			spring.lead(d, 3);
 			EXPECT_NEAR(spring.history.force, force, rounding * 7000) << target << " " << d;
@@ -114,8 +113,8 @@ TEST(WallLaw, AreaOfASteadyLoop)
 		Spring spring { WallLaw(cyclesOf(1), points) };
 		for (const double d : { a, -a, a, -a })
 			spring.lead(d);
-		const double dissipated = spring.dissipated, energy = spring.energy(), B = backbone(a), back = (B + Ff) / k,
-		             start = c * (a - (B - Ff) / k);
+		const double dissipated = spring.dissipated, energy = spring.energy(), B = backbone(a),
+		             back = (B + Ff) / k, start = c * (a - (B - Ff) / k);
 		const double half = back * (Ff - B) / 2 + Ff * (start + a - back) + (a - start) * (Ff + B) / 2;
 		spring.lead(a);
 		spring.lead(-a);
@@ -250,7 +249,8 @@ TEST(WallLaw, RandomPaths)
 			}
 			const double scale = stiffness * unit * 100;
 			ASSERT_NEAR(coarse.history.force, fine.history.force, 1e-9 * scale) << trial << " " << turn;
-			ASSERT_NEAR(coarse.dissipated, fine.dissipated, 1e-9 * scale * unit * 100 + 1e-9 * fine.dissipated);
+			ASSERT_NEAR(
+			        coarse.dissipated, fine.dissipated, 1e-9 * scale * unit * 100 + 1e-9 * fine.dissipated);
 			ASSERT_NEAR(-swapped.history.force, coarse.history.force, 1e-9 * scale);
 			// The trapezoidal rule misses up to four kinks a path, by k step2 / 8 each: observed 2e-3
 			ASSERT_NEAR(fine.work, fine.energy() + fine.dissipated, 5e-3 * (fine.work + scale * unit));
@@ -265,7 +265,8 @@ TEST(WallLaw, TangentIsThatOfTheForce)
 		spring.lead(d, 50);
 		const double from = spring.history.stretch, step = 1e-7 * (d > 0 ? 1 : -1);
 		WallHistory history = spring.history;
-		const WallForce a = spring.law.advance(history, from + step), b = spring.law.advance(a.history, from + 2 * step);
+		const WallForce a = spring.law.advance(history, from + step),
+		                b = spring.law.advance(a.history, from + 2 * step);
 		EXPECT_NEAR(b.tangent, (b.history.force - a.history.force) / step, 1e-4 * k);
 	}
 }
@@ -307,6 +308,5 @@ TEST(WallLaw, NumbersThatAreNoWall)
 	EXPECT_EQ(unmet(&WallCycles::target, 0.9), "with a target >= 1");
 	EXPECT_EQ(unmet(&WallCycles::reloadShare, 1.1), "with a share of reloading in [0, 1]");
 	EXPECT_STREQ(WallLaw::unmetBy(cyclesOf(1), { { 0.01, 10 } }), "of two or more points");
-	EXPECT_STREQ(WallLaw::unmetBy(cyclesOf(1), { { 0.01, 10 }, { 0.02, -1 } }),
-	        "of forces > 0, the last one >= 0");
+	EXPECT_STREQ(WallLaw::unmetBy(cyclesOf(1), { { 0.01, 10 }, { 0.02, -1 } }), "of forces > 0, the last one >= 0");
 }

@@ -8,6 +8,7 @@ import math
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 from yade import O
 from yade.minieigenHP import Vector3
@@ -25,9 +26,9 @@ MEAN = [(1 / 120, 1.4), (1 / 80, 1.8), (1 / 30, 2.8), (0.115, 0.0)]
 """The level mean: shear over the allowable one."""
 
 
-def bay_of(folder, **options):
+def bay_of(folder, wall="{multiplier: 2.5}", **options):
     """The bay with a wall of multiplier 2.5."""
-    return Rack(folder, "{multiplier: 2.5}", **{"level": "design", **options})
+    return Rack(folder, wall, **{"level": "design", **options})
 
 
 def backbone(theta):
@@ -43,20 +44,23 @@ def test_shear_follows_the_backbone(tmp_path):
     bay = bay_of(tmp_path)
     rows = bay.path(0, 0.102)
     assert max(abs(shear - backbone(theta)) for theta, shear in rows) < 5e-3 * STRENGTH
-    assert abs(bay.drift(1 / 120)) < 0.01 * STRENGTH and not bay.joints.breaks  # the wall has slipped
+    # The wall has slipped: what is left is the friction force, as little as the strength at the end of the path
+    assert abs(bay.drift(1 / 120)) < 0.03 * STRENGTH and not bay.joints.breaks
     bay.path(0, 0.105)
     assert bay.beams.isBroken and bay.columns.isBroken
 
 
 @pytest.mark.parametrize("wall, points", [
-    ("{multiplier: 2.5}", [(drift, 4900 * ratio) for drift, ratio in MEAN]),
-    ("{envelope: [[1/450, 2200], [1/300, 3600], [1/120, 6590], [1/75, 9100], [1/30, 13300], [1/20, 10600], [1/15, "
-     "9000]]}",
+    ("{multiplier: 2.5, reload_target: 1}", [(drift, 4900 * ratio) for drift, ratio in MEAN]),
+    ("{reload_target: 1, envelope: [[1/450, 2200], [1/300, 3600], [1/120, 6590], [1/75, 9100], [1/30, 13300], "
+     "[1/20, 10600], [1/15, 9000]]}",
      [(1 / 450, 2200), (1 / 300, 3600), (1 / 120, 6590), (1 / 75, 9100), (1 / 30, 13300), (1 / 20, 10600),
       (1 / 15, 9000)]),
 ])
 def test_points_of_an_envelope(tmp_path, wall, points):
-    """To 1 %, first in one push, then as the first cycle of each drift; the third cycle returns to them."""
+    """To 1 %, first in one push, then as the first cycle of each drift; the third cycle returns to them, because walls
+    reload to the largest drift so far.
+    """
     for cycles in (0, 3):
         bay = Rack(tmp_path, wall)
         for drift, shear in points:
@@ -85,12 +89,60 @@ def test_code_criteria_of_the_multiplier():
     assert backbone(YIELD) > allowable
 
 
+def largest_shear_of_cycles(bay, drift):
+    """In each of three cycles. [N]"""
+    shears = []
+    for _ in range(3):
+        shears.append(bay.path(0.0, drift, step=5e-4)[-1][1])
+        bay.path(drift, -drift, 0.0, step=5e-4)
+    return shears
+
+
+@pytest.mark.parametrize("drift", [1 / 100, 1 / 50, 1 / 30])
+def test_loss_by_cycles(tmp_path, drift):
+    """Reloading begins at 0.65 of the slack and aims at 1.1 times the largest drift; tests lose 5 to 15 %. To 1 %, as
+    the envelope."""
+    bay = bay_of(tmp_path, level="mean")
+    allowable = 4900 * LENGTH
+    envelope = lambda theta: allowable * float(np.interp(theta, *np.transpose([(0, 0), *MEAN])))
+    friction, first = 0.28 * allowable, envelope(drift)
+    stiffness = 1.4 * 120 * allowable
+    start = max(friction / stiffness, 0.65 * (drift - (first - friction) / stiffness))
+    slope = (envelope(1.1 * drift) - friction) / (1.1 * drift - start)
+    later = friction + slope * (drift - start)
+    assert largest_shear_of_cycles(bay, drift) == pytest.approx([first, later, later], rel=0.01)
+    assert 0.84 < later / first < 0.96
+    assert bay.drift(0.0) == pytest.approx(friction, rel=0.01)
+
+
+@pytest.mark.parametrize("amplitude", [1 / 60, 1 / 30])
+def test_area_of_the_loops(tmp_path, amplitude):
+    """Third cycle: the area between the lines of the law, in closed form (theory, walls)."""
+    bay = bay_of(tmp_path, "{multiplier: 2.5, reload_target: 1, friction_force: 1000}")
+    bay.path(0, amplitude, -amplitude, amplitude)
+    before = queries.energy()["joint_yield"]
+    bay.path(amplitude, -amplitude, amplitude)
+    friction, back = 1000 * LENGTH, (STRENGTH + 1000 * LENGTH) / STIFFNESS
+    start = 0.65 * (amplitude - (STRENGTH - friction) / STIFFNESS)
+    half = (back * (friction - STRENGTH) / 2 + friction * (start + amplitude - back)
+            + (amplitude - start) * (friction + STRENGTH) / 2)
+    assert queries.energy()["joint_yield"] - before == pytest.approx(2 * half * HEIGHT, rel=5e-3)
+
+
+def test_residual_strength(tmp_path):
+    """Mortar keeps 30 % of its largest shear at any drift, in both directions."""
+    bay = bay_of(tmp_path, "{envelope: [[0.015, 9000], [0.054, 2700]], residual_share: 0.3, reload_target: 1}")
+    for drift in (0.08, -0.1, 0.09):
+        assert bay.path(0.0, drift, step=5e-4)[-1][1] == pytest.approx(np.sign(drift) * 2700 * LENGTH, rel=0.01)
+    assert not bay.joints.breaks
+
+
 @pytest.mark.parametrize("amplitude", [1 / 60, 1 / 45, 1 / 30])
 def test_damping_of_the_loops(tmp_path, amplitude):
-    """Second cycle: the friction part alone dissipates, 4 phi F (a - y), which is (2 / pi) phi (1 - y / a) of
+    """Law slip, second cycle: the friction part alone dissipates, 4 phi F (a - y), which is (2 / pi) phi (1 - y / a) of
     equivalent damping. Published for timber structures with slip: 0.2 (1 - 1 / sqrt(mu)) (Notification 1457 of 2000),
     mu = a / y; they agree within 0.01."""
-    bay = bay_of(tmp_path)
+    bay = bay_of(tmp_path, "{multiplier: 2.5, friction_share: 0.2}")
     bay.path(0, amplitude, -amplitude, amplitude)
     before = queries.energy()["joint_yield"]
     rows = bay.path(amplitude, -amplitude, amplitude)

@@ -175,7 +175,8 @@ def test_cycles_of_a_type(tmp_path):
     joint, = sheets(house(tmp_path, ONE, "{a: {multiplier: 1}}"))
     assert (joint.law, joint.cycles.friction_force) == ("wall", pytest.approx(0.1 * 2.8 * 1960 * part))
     assert (joint.cycles.reload_share, joint.cycles.reload_target) == (0.65, 1.1)
-    own, = sheets(house(tmp_path, ONE, "{a: {multiplier: 1, friction_force: 300, reload_share: 0.5, reload_target: 1}}"))
+    types = "{a: {multiplier: 1, friction_force: 300, reload_share: 0.5, reload_target: 1}}"
+    own, = sheets(house(tmp_path, ONE, types))
     assert (own.cycles.friction_force, own.cycles.reload_share, own.cycles.reload_target) == (
         pytest.approx(300 * part), 0.5, 1.0)
     slip, = sheets(house(tmp_path, ONE, "{a: {multiplier: 1, friction_share: 0.2}}"))
@@ -229,7 +230,8 @@ def test_walls_that_cover_a_part_of_the_height(tmp_path):
 def test_hold_down(tmp_path):
     """One spring at the axis of the column, with all of the fitting's strength."""
     path = tmp_path / "held.yaml"
-    path.write_text("extends: tiled_house\nname: held\njoints: {column_ends: {type: hold_down, number: 2, share: 0.67}}\n")
+    rule = "{type: hold_down, number: 2, share: 0.67}"
+    path.write_text(f"extends: tiled_house\nname: held\njoints: {{column_ends: {rule}}}\n")
     model = build_house(load_house(path))
     joints = [joint for joint in model.joints if joint.type == "hold_down"]
     assert joints and all(joint.points.shape == (1, 3) for joint in joints)
@@ -312,10 +314,12 @@ MISTAKES = {
         "{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {multiplier: 1, friction_force: 20000}}", [
             "wall_types.a.friction_force", "below the largest shear", "N/m"
         ]),
-    "two laws": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {multiplier: 1, friction_share: 0.2, reload_share: 0.5}}",
+    "two laws": ("{along: y, at: 8, from: 0, to: 1, type: a}",
+                 "{a: {multiplier: 1, friction_share: 0.2, reload_share: 0.5}}",
                  ["wall_types.a.reload_share", "does not go with friction_share"]),
     "residual of slip": (
-        "{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {multiplier: 1, friction_share: 0.2, residual_share: 0.3}}", [
+        "{along: y, at: 8, from: 0, to: 1, type: a}",
+        "{a: {multiplier: 1, friction_share: 0.2, residual_share: 0.3}}", [
             "wall_types.a.residual_share", "friction_share"
         ]),
     "set in kN": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {saws: %s}}" % SAWS.replace("8000", "8"), [

@@ -16,7 +16,7 @@ from yade_timber.scene.modes import natural_modes
 
 LISTS = {yw.HouseMonitor: "peak rows", yw.StructureMonitor: "load opening pull rows shear",
          yw.JointEngine: "breaks joints",
-         yw.TimberJoint: "broken forces largestStretches load plasticStretches springs stretches",
+         yw.TimberJoint: "broken cycles forces largestStretches load plasticStretches springs stretches",
          yw.ManifoldGeom: "points", yw.ManifoldPhys: "points"}
 """Attributes that the engines change within a step."""
 CALLS = {"save": lambda scene: O.save(scene.path, quiet=True), "saveTmp": lambda scene: O.saveTmp(quiet=True),

@@ -15,6 +15,7 @@ import kobe_like
 import shear_model as shear
 import wall_grades as grades
 from house_storeys import AXES, column_ends, wall_joints, wall_springs
+from wall_spring import WallSpring
 
 HEIGHT = 2.73
 """[m]"""
@@ -112,6 +113,18 @@ def test_a_storey_fails_where_its_weight_overcomes_its_walls():
     assert times[-1] < 3.9 and abs(drifts[-1, 0]) > shear.LIMIT
 
 
+def test_loop_of_a_wall():
+    """Third cycle: area between the lines of the law (theory, walls)."""
+    k, strength, friction, a = 1e6, 5000.0, 500.0, 0.02
+    spring = WallSpring(k, [(0.005, strength), (0.03, strength), (0.1, 0.0)], friction, 0.65, 1.0)
+    there, back = np.linspace(a, -a, 4001)[1:], np.linspace(-a, a, 4001)[1:]
+    path = np.concatenate([np.linspace(0, a, 2001), there, back, there, back])
+    forces = np.array([spring.shear(g) for g in path])
+    width, start = (strength + friction) / k, 0.65 * (a - (strength - friction) / k)
+    half = width * (friction - strength) / 2 + friction * (start + a - width) + (a - start) * (friction + strength) / 2
+    assert np.trapz(forces[-8001:], path[-8001:]) == pytest.approx(2 * half, rel=1e-5)
+
+
 # --- graded houses ----------------------------------------------------------------------------------------------------
 
 
@@ -140,15 +153,18 @@ def test_wall_quantities_of_the_performance_labelling():
 
 @pytest.mark.parametrize("level", graded.LEVELS)
 def test_a_graded_house_has_its_walls(level, tmp_path):
-    """All bays of tiled_house, each sheet with the factor, at every drift."""
+    """All bays of tiled_house, each counted sheet with the factor, at every drift; finishes as they are."""
     plain = grades.build_house(grades.load_house(grades.HOUSE), wall_level=level)
     factors = grades.factors(plain, grades.changed_house(grades.HOUSE)["wall_types"], 1.5)
     model = grades.build_house(grades.load_house(grades.house_file(tmp_path, 1.5, level)))
     for (storey, direction), factor in factors.items():
         before, after = (wall_joints(m, storey, direction) for m in (plain, model))
         assert len(after) == len(before)
-        assert sum(j.kn for j in after) == pytest.approx(factor * sum(j.kn for j in before))
-        assert sum(j.strength for j in after) == pytest.approx(factor * sum(j.strength for j in before))
+        for is_finish, ratio in ((False, factor), (True, 1.0)):
+            old, new = ([j for j in joints if j.type.startswith("gypsum_lining") == is_finish]
+                        for joints in (before, after))
+            assert sum(j.kn for j in new) == pytest.approx(ratio * sum(j.kn for j in old))
+            assert sum(j.strength for j in new) == pytest.approx(ratio * sum(j.strength for j in old))
 
 
 @pytest.mark.parametrize("level", graded.LEVELS)

@@ -63,8 +63,8 @@ def joint_values(data, rule, part=1):
     """
     table = data["joint_types"][rule["type"]]
     factor = rule["number"] * rule["share"] * part
-    return {"at": table["at"], "type": rule["type"], "kind": rule["kind"], "law": table["law"], "kn": factor * table["kn"],
-            "ks": factor * table["ks"],
+    return {"at": table["at"], "type": rule["type"], "kind": rule["kind"], "law": table["law"],
+            "kn": factor * table["kn"], "ks": factor * table["ks"],
             "strength": factor * table["strength"] if rule["strength"] is None else part * rule["strength"],
             "per": table["per"] or data["law"]["joint_reading"],
             "damping_ratio": data["law"]["joint_damping"] if table["damping_ratio"] is None else table["damping_ratio"],

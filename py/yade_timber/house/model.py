@@ -75,7 +75,7 @@ class WallCycles:
 
 @dataclass(eq=False)
 class JointSpec:
-    """Springs between elements `a` and `b`: four at the corners of their contact area (paper, 2.4), or one at its centre."""
+    """Springs between elements `a` and `b`: four at the corners of their contact area (paper, 2.4), or one."""
 
     a: str
     b: str

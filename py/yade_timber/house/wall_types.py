@@ -39,6 +39,8 @@ TAIL = LEVELS["mean"].ultimate_drift / 0.0497
 """Drift without shear over the drift at 80 % of the largest shear, the end of tests: that of `mean`. [-]"""
 SLIP_TOLERANCE = 0.1
 """Of the nails' Pv = k dv. [-]"""
+ROUNDING = 1e-9
+"""Of shears. [-]"""
 LEAST_SHEAR = 100.0
 """Of the largest shear of an envelope, below which it is taken to be in kN. [N/m]"""
 FORMS = ("envelope", "nails", "saws")
@@ -168,7 +170,7 @@ def _check_cycles(table, path):
     if table["friction_share"] is not None:
         for key in SAWS_STATES:
             if table[key] is not None:
-                fail(table.at(key), f"{path}.{key}", "does not go with friction_share, the law slip; remove one of them")
+                fail(table.at(key), f"{path}.{key}", "does not go with friction_share, the law slip; remove one")
         if table["residual_share"]:
             fail(table.at("residual_share"), f"{path}.residual_share",
                  "does not go with friction_share, the law slip; remove one of them")
@@ -207,10 +209,10 @@ def _whole_envelope(table, level):
 
 
 def _with_residual(points, share):
-    """Points down to this share of the largest shear, which remains beyond the last one."""
+    """Points down to this share of the largest shear, which remains beyond the last one. points: the last has none"""
     residual = share * max(shear for _, shear in points)
     kept = list(points)
-    while len(kept) > 1 and kept[-2][1] <= residual:
+    while len(kept) > 1 and kept[-2][1] <= residual * (1 + ROUNDING):
         kept.pop()
     (d0, f0), (d1, f1) = kept[-2:]
     return [*kept[:-1], (d0 + (f0 - residual) / (f0 - f1) * (d1 - d0), residual)] if residual > 0 else points

@@ -103,8 +103,9 @@ def _nodes(structure, line, storey, at):
 
 
 def _joints(bay, name, members, data, level):
-    """The two halves of a wall of a type; their labels end in '.plywood.beams', '.plywood.window.beams', '.gypsum.panel.beams'."""
-    parts = [part for part, is_part in ((bay.opening, bay.opening != "none"), ("panel", bay.panel is not None)) if is_part]
+    """The two halves of a wall of a type; their labels end in '.plywood.beams', '.plywood.window.beams', '.panel.beams'.
+    """
+    parts = [bay.opening] * (bay.opening != "none") + ["panel"] * (bay.panel is not None)
     label = ".".join([bay.name, name, *parts])
     low, high = bay.low.solid, bay.high.solid
     height = float(np.diff(low.bounds[:, 2])[0])

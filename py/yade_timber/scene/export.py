@@ -40,8 +40,8 @@ def export_scene(path):
 
     ``joints``: elements (ids), points (n, 3) world [m], normal (from the first to the second), stiffness (kn, ks)
     [N/m], strength [N] (null: unbreakable), reading 'spring' or 'joint', damping_ratio [-], damping_time [s],
-    initial_damping, broken (one flag per spring), kind, name, slip (null: brittle; else the parameters and the history
-    of each spring); none of a removed body.
+    initial_damping, broken (one flag per spring), kind, name, slip and wall (the parameters and the history of each
+    spring with this law; null for both: brittle); none of a removed body.
     """
     for body in O.bodies:
         if not isinstance(body.shape, yw.RoundedPolyhedron):
@@ -102,7 +102,8 @@ def describe_joint(joint):
             "reading": "joint" if joint.perJoint else "spring", "damping_ratio": joint.dampingRatio,
             "damping_time": joint.dampingTime, "initial_damping": joint.initialDamping,
             "broken": [bool(b) for b in joint.broken], "kind": joint.kind, "name": joint.name,
-            "slip": describe_slip(joint, state) if joint.law == "slip" else None}
+            "slip": describe_slip(joint, state) if joint.law == "slip" else None,
+            "wall": describe_wall(joint) if joint.law == "wall" else None}
 
 
 def describe_slip(joint, state):
@@ -111,3 +112,13 @@ def describe_slip(joint, state):
     return {"friction_share": joint.frictionShare, "softening_stretch": joint.softeningStretch,
             "ultimate_stretch": joint.ultimateStretch, "envelope": [list(point) for point in joint.envelope],
             "plastic": [list(state.ori * p) for p in joint.plasticStretches], "largest": list(joint.largestStretches)}
+
+
+def describe_wall(joint):
+    """Dictionary of a TimberJoint of a wall: envelope (n, 2) [m, N], its cycles, and the history of each spring."""
+    return {"envelope": [list(point) for point in joint.envelope], "friction_force": joint.frictionForce,
+            "pinched_stiffness": joint.pinchedStiffness, "reload_target": joint.reloadTarget,
+            "reload_share": joint.reloadShare, "reload_stiffness": joint.reloadStiffness,
+            "reload_stretch": joint.reloadStretch, "reload_power": joint.reloadPower,
+            "springs": [{key: list(value) if isinstance(value, tuple) else value for key, value in spring.items()}
+                        for spring in joint.cycles]}
