@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import yade_timber as yt
 from yade import O
+from yade_timber.base.joint_kinds import WALL_KINDS
 from yade_timber.house.parser import house_text
 from yade_timber.scene import scenario, sway
 
@@ -109,3 +110,17 @@ def test_sway_has_the_stated_ratio(tmp_path, storeys, floors, ratio):
         measured = decay(axis)
         print(f"{storeys} storeys, {floors}, {'E-W N-S'.split()[axis]}: {ratio} stated, {measured:.4f} measured")
         assert measured == pytest.approx(ratio, rel=0.1)
+
+
+def test_without_walls_or_ratio_there_is_no_damping_time(tmp_path):
+    assert {joint.damping_time for joint in built(tmp_path, house(1, "slabs"), 0.0).joints} == {0.0}
+    model = scenario.build(scenario.Scenario("braced", "storehouse"))
+    assert {joint.damping_time for joint in model.joints} == {0.0}
+
+
+def test_members_and_walls(tmp_path):
+    """Joints of members damp their members by the ratio, walls the sway alone."""
+    model = built(tmp_path, house(1, "beams"), 0.05)
+    walls = [joint for joint in model.joints if joint.kind in WALL_KINDS]
+    assert all(joint.damping_ratio == 0 and joint.damping_time > 0 for joint in walls)
+    assert {(joint.damping_ratio, joint.damping_time) for joint in model.joints if joint not in walls} == {(0.05, 0.0)}
