@@ -57,8 +57,8 @@ def _save(path):
 
 
 def load(path, identity, kind=dict):
-    """Load the saved scene; returns `progress` as saved. kind: its type, as of json_types. Raises RunError for damage or
-    another identity.
+    """Load the saved scene; returns `progress` as saved. kind: its type, as of json_types. Raises RunError for damage
+    or another identity.
     """
     path = Path(path)
     with record(path) as file:
