@@ -9,6 +9,7 @@
 #include <Shape.hpp>
 #include <bodies.hpp>
 #include <core/InteractionLoop.hpp>
+#include <lib/pyutil/gil.hpp>
 #include <pkg/common/InsertionSortCollider.hpp>
 #include <pkg/common/ParallelEngine.hpp>
 #include <iomanip>
@@ -111,6 +112,24 @@ namespace {
 		for (const ForeignEngine& foreign : foreignEngines)
 			if (isKindOf(engine.getClassName(), foreign.base))
 				refuseEngines(engine.getClassName() + " " + foreign.remedy);
+	}
+
+	/// What YADE's VTKRecorder may record: the others read contacts as if they were those of spheres.
+	const std::set<string> recordable { "spheres", "facets", "boxes", "velocity", "force", "mass", "id", "mask",
+		"clumpId", "materialId", "colors", "coordNumber", "pericell" };
+
+	void checkRecorder(const Engine& engine)
+	{
+		if (!isKindOf(engine.getClassName(), "VTKRecorder")) return;
+		const gilLock lock;
+		const py::list recorders(engine.pyDict()["recorders"]);
+		for (int k = 0; k < py::len(recorders); ++k) {
+			const string name = py::extract<string>(recorders[k]);
+			if (recordable.count(name) == 0)
+				refuseEngines("VTKRecorder records '" + name
+				        + "', which reads contacts as those of spheres and would end the session. "
+				          "Remove it from recorders; scripts/show/export_vtk.py exports a run");
+		}
 	}
 
 	/// The scene's contact loop, alone or in a ContactLoop.
@@ -250,8 +269,10 @@ void checkEngines(const Scene& scene)
 	for (const Role& role : roles)
 		if (role.number == Role::required && count[&role] == 0)
 			refuseEngines(string(role.name) + " is missing");
-	for (const Engine* engine : live)
+	for (const Engine* engine : live) {
 		refuseForeign(*engine);
+		checkRecorder(*engine);
+	}
 }
 
 void checkContacts(const Scene& scene)

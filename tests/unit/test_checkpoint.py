@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import yade.system as system
 import yade.wrapper as yw
+from file_limit import file_limit
 from yade_timber.base.errors import RunError
 from yade_timber.base.options import options
 from yade_timber.run import checkpoint
@@ -162,6 +163,13 @@ def test_every_class_of_yade_has_a_name_that_is_checked(tmp_path):
             continue
         assert f"yade::{name}".encode() in (tmp_path / "a.yade").read_bytes(), name
     O.reset()
+
+
+def test_a_limit_of_the_file_size(tmp_path):
+    """Boost's error does not name it."""
+    with file_limit(100), pytest.raises(OSError, match="File too large"):
+        checkpoint.save(tmp_path / "a.yade", {"name": "x"}, {})
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_writer_that_fails_leaves_the_earlier_checkpoint(tmp_path, monkeypatch):

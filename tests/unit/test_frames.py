@@ -8,6 +8,7 @@ import os
 import h5py
 import numpy as np
 import pytest
+from file_limit import file_limit
 from small_frames import CUBE, frames
 from yade_timber.recording import frames as files
 from yade_timber.base.errors import RunError
@@ -145,6 +146,14 @@ def test_a_removed_element(tmp_path):
     made.position[5:, 1] = made.orientation[5:, 1] = np.nan
     files.save(tmp_path / "frames.h5", made)
     assert np.isnan(files.load(tmp_path / "frames.h5").position[5:, 1]).all()
+
+
+def test_a_limit_of_the_file_size(tmp_path):
+    """An error of the system, and the earlier file stays; a crash would follow at the end of this process."""
+    files.save(tmp_path / "frames.h5", frames(ended=False))
+    with file_limit(10_000), pytest.raises(OSError, match="too large"):
+        files.save(tmp_path / "frames.h5", frames())
+    assert files.load(tmp_path / "frames.h5").summary is None and len(list(tmp_path.iterdir())) == 1
 
 
 def test_truncated_file(tmp_path):

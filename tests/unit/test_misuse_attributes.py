@@ -267,3 +267,18 @@ def test_a_quaternion_that_cannot_be_normalised(norm):
         state.ori = Quaternion(norm, 0, 0, 0)
     is_one_line(error, "State.ori", "norm of a quaternion > 0")
     assert state.ori == before
+
+
+HULL = [(12.0, 7.0, 1.5), (12.2, 7.0, 1.5), (12.2, 7.2, 1.5), (12.0, 7.2, 1.5), (12.1, 7.1, 1.9)]
+"""A pyramid far from the origin. [m]"""
+
+
+@pytest.mark.parametrize("more, words", [
+    ([(12.06, 7.12, 1.5)], ["vertex 5 (12.06, 7.12, 1.5) is no corner"]),
+    ([(12.1, 7.1, 1.6)], ["vertex 5 (12.1, 7.1, 1.6) is no corner"]),
+    ([(12.2, 7.2, 1.5)], ["vertices 2 and 5", "same point (12.2, 7.2, 1.5)"]),
+])
+def test_vertices_are_named_as_given(more, words):
+    with pytest.raises((ValueError, RuntimeError)) as error:
+        yt.polyhedron(HULL + more)
+    is_one_line(error, *words)

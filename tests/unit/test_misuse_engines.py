@@ -51,6 +51,26 @@ def test_part_of_a_body(part, value, words):
     is_one_line(error, f"body {new}", *words)
 
 
+@pytest.mark.parametrize("recorders", [["all"], ["spheres", "intr"], ["stress"], ["cpm"], ["bstresses"], ["unknown"]])
+def test_recorder_that_reads_contacts(tmp_path, recorders):
+    """It would take them for those of spheres and end the session."""
+    column_on_plate()
+    O.engines = [*O.engines, yw.VTKRecorder(fileName=str(tmp_path / "a-"), recorders=recorders, iterPeriod=1)]
+    with pytest.raises(RuntimeError) as error:
+        O.run(20, True)
+    is_one_line(error, "VTKRecorder", recorders[-1], "export_vtk.py")
+
+
+def test_recorder_of_bodies(tmp_path):
+    column_on_plate()
+    before = O.iter
+    recorders = ["spheres", "facets", "boxes", "velocity", "force", "mass", "id", "mask", "clumpId", "materialId",
+                 "colors", "coordNumber"]
+    O.engines = [*O.engines, yw.VTKRecorder(fileName=str(tmp_path / "a-"), recorders=recorders, iterPeriod=1)]
+    O.run(20, True)
+    assert O.iter == before + 20 and list(tmp_path.iterdir())
+
+
 @pytest.mark.parametrize("mass", [0.0, -1.0, math.nan])
 def test_mass_changed_by_hand(mass):
     """The message does not blame the time step."""

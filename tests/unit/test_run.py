@@ -10,6 +10,7 @@ import json
 import os
 import pty
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -353,6 +354,18 @@ def test_resume_without_the_frames_of_the_run(tmp_path, straight):
     assert not recorded.exists()
     longer[longer.index(0.1)] = 0.12
     assert run("modelA_snow", *longer, "--or-anew").returncode == 0 and len(frames.load(recorded).time) == 4
+
+
+@pytest.mark.parametrize("checkpoint", [0, 0.05])
+def test_a_limit_of_the_file_size(tmp_path, checkpoint):
+    """As by `ulimit -f`: one line of this package, and no crash at the end."""
+    def limited():
+        resource.setrlimit(resource.RLIMIT_FSIZE, (5000, 5000))
+
+    done = run("modelA_snow", *SHORT, "--duration", 0.1, "--checkpoint", checkpoint, "--out", tmp_path,
+               preexec_fn=limited)
+    errors = [line for line in own_errors(done) if line.startswith("error: ")]
+    assert done.returncode == 1 and len(errors) == 1 and "File too large" in errors[0], done.stderr
 
 
 INTERRUPTED = """

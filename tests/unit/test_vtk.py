@@ -11,6 +11,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from file_limit import file_limit
 from small_frames import FACES, frames
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
@@ -109,6 +110,11 @@ def test_a_full_disk_is_an_error_of_the_system_and_leaves_no_file(tmp_path, monk
     with pytest.raises(OSError, match="No space"):
         vtk.export(tmp_path, frames())
     assert not [path for path in tmp_path.rglob("*") if path.is_file()] and capfd.readouterr() == ("", "")
+
+
+def test_a_limit_of_the_file_size(tmp_path):
+    with file_limit(500), pytest.raises(OSError, match="too large"):
+        vtk.export(tmp_path, frames())
 
 
 def test_an_export_to_what_is_no_folder(folder):

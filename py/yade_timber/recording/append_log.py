@@ -39,8 +39,8 @@ class AppendLog:
         with open_record(self.path, os.O_RDWR | os.O_APPEND | os.O_CREAT) as file:
             if file.seek(0, os.SEEK_END) == 0:
                 file.write(_packed(RUN, 0.0, self.run.encode()))
-            for record in self.pending:
-                file.write(_packed(*record))
+            for pending in self.pending:
+                file.write(_packed(*pending))
             file.flush()
             os.fsync(file.fileno())
             self.pending = []

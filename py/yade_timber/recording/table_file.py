@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """HDF5 files of unknown origin: nothing is read before all that a file holds is of a stated layout.
 
-A layout: {group: Group}, the root named ''. A file may lack parts of it. What else HDF5 can hold is refused: links, data
-in other files, chunks and filters (nothing expands), types with a name, references, one object under two names. The
+A layout: {group: Group}, the root named ''. A file may lack parts of it. What else HDF5 can hold is refused: links,
+data in other files, chunks and filters (nothing expands), types with a name, references, one object under two names. The
 entries of each table lie in the file as they are, and all together take no more bytes than the file has.
 """
 import math
@@ -26,8 +26,8 @@ TEXT_ENTRY = 16
 
 @dataclass(frozen=True)
 class Group:
-    """tables: {name: (kind, length, ...)}, the lengths of the dimensions being a number, or a letter that stands for one in the
-    whole file; attributes: {name: kind}, single values
+    """tables: {name: (kind, length, ...)}, each length being a number, or a text that stands for one in the whole file;
+    attributes: {name: kind}, single values
     """
 
     tables: dict = field(default_factory=dict)
@@ -113,7 +113,7 @@ class _Inspection:
             raise ValueError(f"{place}: the tables declare more bytes than the file has")
 
     def dimensions(self, shape, lengths, place):
-        """Compare a shape with the lengths of the layout; a letter stands for the length at its first place."""
+        """Compare a shape with the lengths of the layout; a text stands for the length at its first place."""
         if len(shape) != len(lengths):
             raise ValueError(f"{place}: {len(shape)} dimensions instead of {len(lengths)}")
         for length, known in zip(shape, lengths):

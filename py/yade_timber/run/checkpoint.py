@@ -56,8 +56,10 @@ def _save(path):
         raise OSError(number, reason) from None
 
 
-def load(path, identity):
-    """Load the saved scene; returns `progress` as saved. Raises RunError for damage or another identity."""
+def load(path, identity, kind=dict):
+    """Load the saved scene; returns `progress` as saved. kind: its type, as of json_types. Raises RunError for damage
+    or another identity.
+    """
     path = Path(path)
     with record(path) as file:
         if os.fstat(file.fileno()).st_uid != os.geteuid():  # YADE's loader is not safe against every forged file
@@ -68,7 +70,7 @@ def load(path, identity):
         body, _, line = content.rpartition(b"\n")
         seal = json.loads(line)
         complete = hashlib.sha256(body).hexdigest() == seal["sha256"] and isinstance(seal["identity"], dict)
-        decode(Progress, seal["progress"])
+        decode(kind, seal["progress"])
     except (ValueError, KeyError, TypeError, RecursionError):
         complete = False
     if not complete:

@@ -133,7 +133,7 @@ class Run(Stoppable):
             self._build()
         else:
             self.model = self.scenario.build_model()
-        saved = checkpoint.load(self.checkpoint_path, identity(self.origin))
+        saved = checkpoint.load(self.checkpoint_path, identity(self.origin), checkpoint.Progress)
         if O.iter >= self.steps:
             duration = f"{self.options.named('duration')} {self.scenario.duration:g}"
             raise RunError(f"{duration}: {self.checkpoint_path} is already at {O.time:g} s; give a longer duration")

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Bodies: rounded convex polyhedra of timber or snow. Needs a running YADE."""
 import math
+import re
+from contextlib import contextmanager
 
 import numpy as np
 import yade.wrapper as yw
@@ -127,10 +129,26 @@ def polyhedron(vertices, material=None, fixed=False, radius=None, name="", kind=
     return body
 
 
+PLACE = re.compile(r"(vert(?:ex|ices) (\d+)(?: and \d+ are the same point)?) \([^()]*\)")
+"""Of an error: a vertex, by its number, and its position."""
+
+
+@contextmanager
+def named_as_given(vertices):
+    """Context in which an error of a shape has the positions of these vertices (n, 3) [m], by their numbers."""
+    try:
+        yield
+    except (ValueError, RuntimeError) as problem:
+        text = PLACE.sub(lambda place: f"{place[1]} ({', '.join(f'{x:.9g}' for x in vertices[int(place[2])])})",
+                         str(problem))
+        raise type(problem)(text) from None
+
+
 def principal_body(vertices, density, radius, **look):
     """Body with the principal axes of inertia. vertices (n, 3) world [m]; radius, 0: default; look: of shape"""
     origin = vertices.mean(0)  # far from the world's origin the moments would lose digits
-    raw = yw.RoundedPolyhedron(vertices=[Vector3(*(v - origin)) for v in vertices], radius=radius)
+    with named_as_given(vertices):
+        raw = yw.RoundedPolyhedron(vertices=[Vector3(*(v - origin)) for v in vertices], radius=radius)
     volume, centroid, inertia, axes = raw.massProperties()
     axes = Quaternion(axes)
     corners = np.array([axes.conjugate() * (Vector3(*(v - origin)) - centroid) for v in vertices])
