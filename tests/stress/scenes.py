@@ -285,5 +285,10 @@ def show(scenes):
     return verdicts
 
 
+def expect_sound(verdicts):
+    faults = {one.outcome.name: one.faults() for one in verdicts if one.faults()}
+    assert not faults, "\n".join(f"{name}: {'; '.join(found)}" for name, found in faults.items())
+
+
 if __name__ == "__main__":
     show(wanted(sys.argv[1:]) or ALL)
