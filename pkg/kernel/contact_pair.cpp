@@ -447,7 +447,11 @@ PairForce storeForces(ContactSolver& solver, size_t k, const PairProperties& pai
 		const Account<Number> normal(
 		        record.get(&PointRecord::normalStored), p[0] * mean.dot(axes[0]), normalLaw);
 
-		const Number crushing = select(p[0] >= most * Number(1 - strengthRounding), normal.dissipated, none);
+		// The total force is at the strength, or the spring is while the surfaces close
+		const Number yield = most * Number(1 - strengthRounding);
+		const auto yields
+		        = logicalOr(p[0] >= yield, logicalAnd(Number(h) * e >= yield, mean.dot(axes[0]) < none));
+		const Number crushing = select(yields, normal.dissipated, none);
 		const Number shearStiffness = Number(pair.shearRatio) * K;
 		// Spring in the middle of the step
 		const Vec slip = Number(h / 2) * (after - separation * axes[0]), ahead = shear - shearStiffness * slip;
