@@ -5,10 +5,10 @@
     scripts/validation/graded_changes.py --record PREFIX_OF_JMA_KOBE --start 6 --end 20 [--seeds N]
         [--changes 'default,finishes off,...'] [--grades 1,1.25,1.5] [--levels design,mean] [--to DIR]
 
-Houses, tests and motion: graded_houses.py. Each row of the table is a change, a grade and a level of the walls. The same
-command continues runs that were stopped; further changes, grades and seeds add to them. finishes: sum of the largest
-shears of finishes in storey 1 over the code's wall quantity, the smaller of both directions. Drifts are medians over
-the runs, of the centre and of the column that drifts most, before the house tilts or to the end.
+Houses, tests and motion: graded_houses.py. Each row of the table is a change, a grade and a level of the walls. The
+same command continues runs that were stopped; further changes, grades and seeds add to them. finishes: sum of the
+largest shears of finishes in storey 1 over the code's wall quantity, the smaller of both directions. Drifts of storey 1
+are medians over the runs, of the centre and of the column that drifts most; 1 for a run that collapses.
 """
 import math
 import sys
@@ -155,7 +155,8 @@ def parsed():
     options.add_argument("--scale", type=positive, default=1.0, metavar="X", help="factor on the motion")
     options.add_argument("--seeds", type=count, default=1, metavar="N", help="runs of each house (default %(default)s)")
     options.add_argument("--rule", choices=("law", "label"), default="law", help="wall quantity (graded_houses.py)")
-    options.add_argument("--changes", default=",".join(CHANGES), help="default: all; 'shipped': %s" % ", ".join(SHIPPED))
+    options.add_argument("--changes", default=",".join(CHANGES),
+                         help=f"default: all; shipped: {', '.join(SHIPPED)}".replace("%", "%%"))
     options.add_argument("--grades", default="1,1.25,1.5", help="default %(default)s")
     options.add_argument("--levels", default="design,mean", help="of the walls (default %(default)s)")
     options.add_argument("--to", type=results_folder, metavar="DIR", help="folder of the table")

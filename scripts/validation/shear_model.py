@@ -79,7 +79,6 @@ class Storey:
         """Initial, of the springs. [N/m]"""
         return sum(spring.stiffness for spring in self.springs) / self.height
 
-
     def tangent(self):
         """Of the springs after the last step. [N/m]"""
         return sum(spring.tangent for spring in self.springs) / self.height

@@ -13,8 +13,8 @@ from yade_timber.house.parser import house_text
 from yade_timber.scene import scenario, sway
 
 DRIFT = 4e-5
-"""Of the top over its height, at the start [rad]: 0.1 mm a storey. Friction in loosely loaded contacts adds 0.002 to the
-ratio at 1e-4."""
+"""Of the top over its height, at the start [rad]: 0.1 mm a storey. Friction in loosely loaded contacts adds 0.002 to
+the ratio at 1e-4."""
 DT = 5e-4
 SAMPLES = 40
 """In a period."""

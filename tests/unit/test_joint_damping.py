@@ -160,7 +160,8 @@ def test_columns_stay_when_damping_changes():
 
 
 def pulled(initial):
-    """Power of the dashpot of a wall's spring while a heavy block stretches it by 0.1 m/s: (elastic, yielded, turned)."""
+    """Power of the dashpot of a wall's spring while a heavy block stretches it by 0.1 m/s: [elastic, yielded, turned].
+    [W]"""
     O.reset()
     base = O.bodies.append(yt.box((0.5, 0.5, 0.5), (0, 0, 0), fixed=True))
     block = O.bodies.append(yt.box((0.5, 0.5, 0.5), (0, 0, 1.0)))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Damping of the sway of a house: damping times of its joints (docs/theory.md, section 4).
+"""Damping of the sway of a house: damping times of the joints of its walls (docs/theory.md, section 4).
 
 The scene that is loaded has settled under its own weight. Its first sway modes E-W and N-S, each of unit modal mass,
 have with the dashpots of all contacts and joints the power P and the damping ratio
