@@ -15,6 +15,7 @@ sys.path.insert(0, str(ROOT / "py"))
 
 import yade_timber as yt
 import frames_sample
+from summaries import sample_summary
 from yade_timber.base.errors import InputError
 from yade_timber.house import build_house, load_house
 
@@ -94,6 +95,14 @@ def test_damaged_summary(tmp_path):
         (tmp_path / "summary.json").write_text(text)
         with pytest.raises(InputError, match="cannot be read as the summary"):
             yt.load_run(tmp_path)
+
+
+def test_directions_of_a_summary_are_attributes(tmp_path):
+    sample_summary().write(tmp_path)
+    shear = yt.load_run(tmp_path).summary.quantities.base_shear
+    assert shear.sustained.ns == shear.sustained["ns"] and shear.peak.ew == shear.peak["ew"]
+    with pytest.raises(AttributeError, match="there are ns, ew"):
+        shear.peak.north
 
 
 def test_representations_are_short():

@@ -205,3 +205,19 @@ def test_a_pipe_or_device_is_no_table(tmp_path):
     for path in (tmp_path / "pipe", Path(os.devnull)):
         with pytest.raises(BatchError, match=f"{path}: cannot be read: not a regular file"):
             read_table(path)
+
+
+def test_empty_columns_of_a_spreadsheet(tmp_path):
+    """Columns and lines that were once used; a value without a column's name is refused."""
+    (tmp_path / "a.csv").write_text("house,snow,duration,,,\nB,1,0.02,,,\n,,,,,\n", encoding="utf-8-sig")
+    (row,) = read_table(tmp_path / "a.csv")
+    assert row.cells == {"house": "B", "snow": "1", "duration": "0.02"}
+    (tmp_path / "a.csv").write_text("house,snow,,\nB,1,2,\n")
+    with pytest.raises(BatchError, match="a.csv:2: the value '2' is in a column without a name"):
+        read_table(tmp_path / "a.csv")
+
+
+def test_a_table_in_another_encoding(tmp_path):
+    (tmp_path / "a.csv").write_bytes("house,description\nB,\u57fa\u6e96\n".encode("cp932"))
+    with pytest.raises(BatchError, match="save it as UTF-8"):
+        read_table(tmp_path / "a.csv")

@@ -12,7 +12,8 @@ import pytest
 from yade_timber.base.atomic_write import (make_folder, remove, remove_parts, write_text, written_from_memory,
                                            written_whole)
 from yade_timber.base.lock import is_locked, locked
-from yade_timber.base.table import csv_text
+from yade_timber.base.processors import processors, quota
+from yade_timber.base.table import csv_text, read_csv
 
 
 def names(folder):
@@ -148,6 +149,28 @@ def test_one_process_a_folder(tmp_path):
     with locked(tmp_path) as first, locked(tmp_path) as second:
         assert first and not second and is_locked(tmp_path)
     assert not is_locked(tmp_path)
+
+
+def test_letters_beyond_ascii_in_tables(tmp_path):
+    """A spreadsheet knows them by the byte order mark, which is not read back."""
+    write_text(tmp_path / "a.csv", csv_text(("\u540d", "b"), [("\u57fa", 1)]))
+    assert (tmp_path / "a.csv").read_bytes().startswith(b"\xef\xbb\xbf")
+    assert read_csv(tmp_path / "a.csv") == (["\u540d", "b"], [["\u57fa", "1"]])
+    assert not csv_text(("a",), []).startswith("\ufeff")
+
+
+@pytest.mark.parametrize("files, expected", [
+    ({"cpu.max": "150000 100000\n"}, 1.5), ({"cpu.max": "max 100000\n"}, float("inf")), ({}, float("inf")),
+    ({"cpu/cpu.cfs_quota_us": "400000\n", "cpu/cpu.cfs_period_us": "100000\n"}, 4.0),
+    ({"cpu/cpu.cfs_quota_us": "-1\n", "cpu/cpu.cfs_period_us": "100000\n"}, float("inf")),
+])
+def test_quota_of_a_container(tmp_path, monkeypatch, files, expected):
+    (tmp_path / "cpu").mkdir()
+    for name, content in files.items():
+        (tmp_path / name).write_text(content)
+    assert quota(tmp_path) == expected
+    monkeypatch.setattr("yade_timber.base.processors.quota", lambda: 0.5)
+    assert processors() == 1
 
 
 def test_numbers_in_tables():

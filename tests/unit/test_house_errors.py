@@ -16,6 +16,7 @@ sys.path.insert(0, str(ROOT / "py"))
 
 from yade_timber.house import HouseError, build_house, limits, load_house
 from yade_timber.house.loader import SHIPPED
+from yade_timber.house.parser import parse_table
 
 STOREHOUSE = """\
 name: storehouse
@@ -365,3 +366,13 @@ def test_snow_depth_argument_is_checked(tmp_path):
     for depth in (-1, float("nan")):
         with pytest.raises(HouseError, match="snow depth"):
             build_house(load_house(tmp_path / "store.yaml"), depth)
+
+
+@pytest.mark.parametrize("text, refused", [("[0, 2,73]", True), ("[0,1, 2]", True), ("[1.5, 0,5]", True),
+                                           ("[0,1]", False), ("[0, 1, 2.5]", False), ("[[0,1], [2, 3]]", False),
+                                           ("[0,\n 1, 2]", False), ("[a,b, c]", False)])
+def test_a_decimal_comma_in_a_list(text, refused):
+    if not refused:
+        return parse_table(f"a: {text}\n", "own.yaml")
+    with pytest.raises(HouseError, match="own.yaml:1: .*decimal point"):
+        parse_table(f"a: {text}\n", "own.yaml")

@@ -636,3 +636,36 @@ def test_real_records_have_their_published_peaks(name, peaks):
     got = read_motion(Path(RECORDS) / name).pga_gal
     digits = 3 if name.startswith("AOM") else 1
     assert {k: round(got[k], digits) for k in peaks} == peaks
+
+
+@pytest.mark.parametrize("name, direction", [
+    ("N10E", 10.0), ("N90E", 90.0), ("S10E", 170.0), ("S20W", 200.0), ("N15W", 345.0), ("N00E", 0.0), ("HNN", 0.0),
+    ("HNE", 90.0), ("HNZ", "up"), ("BLE", 90.0), ("NS2", 0.0), ("EW1", 90.0), ("UD2", "up"), ("L", None), ("T", None),
+    ("HNX", None), ("N100E", None),
+])
+def test_names_of_components_in_nga_west2(name, direction):
+    assert direction_of(name) == direction
+
+
+def write_at2(folder, prefix, suffixes):
+    for suffix, size in zip(suffixes, (0.1, 0.2, 0.3)):
+        (folder / f"{prefix}{suffix}.AT2").write_text(
+            f"PEER NGA STRONG MOTION DATABASE RECORD\nTest, 1/1/2008, {prefix}, {suffix}\n"
+            f"ACCELERATION TIME SERIES IN UNITS OF G\nNPTS=   4, DT=   .0100 SEC,\n  0.0  {size}  -{size}  0.0\n")
+
+
+@pytest.mark.parametrize("suffixes", [("NS2", "EW2", "UD2"), ("HNN", "HNE", "HNZ"), ("N00E", "N90E", "UP")])
+def test_prefix_of_files_of_nga_west2(tmp_path, suffixes):
+    write_at2(tmp_path, "RSN1_TEST_X", suffixes)
+    motion = read_motion(tmp_path / "RSN1_TEST_X")
+    peaks = np.abs(motion.acceleration).max(0) / 9.80665  # east, north, up
+    assert peaks == pytest.approx([0.2, 0.1, 0.3], rel=1e-3)
+
+
+def test_prefix_of_other_files_names_them(tmp_path):
+    write_at2(tmp_path, "RSN1_", ("QQ", "RR"))
+    with pytest.raises(RecordError, match="files of that beginning: RSN1_QQ.AT2, RSN1_RR.AT2"):
+        read_motion(tmp_path / "RSN1_")
+    write_at2(tmp_path, "RSN2_X", ("L", "T", "UP"))
+    with pytest.raises(RecordError, match="direction not stated"):
+        read_motion(tmp_path / "RSN2_X")

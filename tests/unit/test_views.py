@@ -4,12 +4,13 @@
 import dataclasses
 import subprocess
 import sys
+from functools import partial
 
 import numpy as np
 import pytest
 from matplotlib import image
 from small_frames import frames
-from yade_timber.pictures import all_pictures, curves, figures, key_times, raster, sheets, views
+from yade_timber.pictures import all_pictures, curves, figures, key_times, raster, renderer, sheets, stage, views
 from yade_timber.pictures.raster import Window
 from yade_timber.pictures.views import FRONT, SIDE, Solid
 from yade_timber.recording import frames as recorded
@@ -168,6 +169,37 @@ def test_pictures_are_written_whole(tmp_path, coarse):
     assert [path.name for path in written] == names
     assert {path.name for path in tmp_path.iterdir()} == {recorded.NAME, *names}
     assert all(path.read_bytes()[:4] in (b"\x89PNG", b"%PDF", b"<!DO") for path in written)
+
+
+def test_pictures_without_opengl(tmp_path, coarse, monkeypatch, capsys):
+    """Those that need none are made, and one line names the others."""
+    def fail(*_, **__):
+        raise renderer.NoOpenGL("no OpenGL here")
+
+    monkeypatch.setattr(renderer, "context", fail)
+    monkeypatch.setattr(stage, "context", fail)
+    recorded.save(tmp_path / recorded.NAME, frames())
+    assert [path.name for path in all_pictures.write(tmp_path)] == ["history.png", "player.html"]
+    assert capsys.readouterr().err == "note: without end_state, front, side: no OpenGL here\n"
+
+
+def test_another_device_is_tried(monkeypatch):
+    """The first one offers too little; packages are named where a library is missing only."""
+    def create(fault="eglCreateContext failed", devices=(), **options):
+        if options["device_index"] not in devices:
+            raise Exception(fault)
+        return options["device_index"]
+
+    make = renderer.context.__wrapped__
+    monkeypatch.setattr("moderngl.create_context", partial(create, devices=(2,)))
+    assert make() == 2
+    monkeypatch.setattr("moderngl.create_context", create)
+    with pytest.raises(renderer.NoOpenGL, match="eglCreateContext failed") as raised:
+        make()
+    assert "install" not in str(raised.value)
+    monkeypatch.setattr("moderngl.create_context", partial(create, "libEGL.so not loaded"))
+    with pytest.raises(renderer.NoOpenGL, match="install python3-moderngl"):
+        make()
 
 
 def test_hostile_names_in_a_recording(tmp_path, coarse):

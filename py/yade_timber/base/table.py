@@ -11,20 +11,23 @@ def read_csv(path):
     """(header, list of rows), cells as text. Raises RunError."""
     content = read_record(path, limit=MAX_TABLE)
     try:
-        header, *rows = csv.reader(io.StringIO(content.decode("utf-8"), newline=""))
+        header, *rows = csv.reader(io.StringIO(content.decode("utf-8-sig"), newline=""))
     except (ValueError, csv.Error) as problem:
         raise RunError(f"{path}: cannot be read as a table: {problem}") from None
     return header, rows
 
 
 def csv_text(header, rows):
-    """Text of a CSV file: floats with 12 significant digits, zero without a sign; texts as in `inert`."""
+    """Text of a CSV file: floats with 12 significant digits, zero without a sign; texts as in `inert`. Letters beyond
+    ASCII need a byte order mark for spreadsheets.
+    """
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(header)
     writer.writerows([f"{value + 0.0:.12g}" if isinstance(value, float) else inert(value) for value in row]
                      for row in rows)
-    return text.getvalue()
+    content = text.getvalue()
+    return content if content.isascii() else f"\ufeff{content}"
 
 
 FORMULA = ("=", "+", "-", "@", "\t", "\r")

@@ -54,7 +54,7 @@ def text_of(path):
     try:
         return read_bytes(path, MAX_FILE_SIZE).decode("utf-8")
     except UnicodeDecodeError:
-        raise HouseError(f"{path}: cannot be read: not UTF-8 text") from None
+        raise HouseError(f"{path}: cannot be read: not UTF-8 text; save it as UTF-8") from None
     except OSError as problem:
         raise HouseError(f"{path}: cannot be read: {problem.strerror}") from None
 

@@ -69,7 +69,7 @@ class _Parser(yaml.SafeLoader):
     """Composes YAML nodes and converts them; `source`, if given, replaces file and line."""
 
     def __init__(self, text, file, source, max_nodes):
-        self.file, self.source, self.max_nodes = file, source, max_nodes
+        self.file, self.source, self.max_nodes, self.text = file, source, max_nodes, text
         self.nodes = self.values = self.depth = 0
         super().__init__(text)
 
@@ -109,12 +109,23 @@ class _Parser(yaml.SafeLoader):
             return self._table(node, depth)
         if isinstance(node, yaml.SequenceNode) and node.tag == TAG + "seq":
             sources = [self._where(child.start_mark) for child in node.value]
+            self._refuse_mixed_commas(node)
             return Items([self._convert(child, depth + 1) for child in node.value], self._where(node.start_mark),
                          sources)
         if isinstance(node, yaml.ScalarNode) and node.tag in _PLAIN_TYPES:
             return self._scalar(node)
         raise HouseError(f"{self._where(node.start_mark)}: unsupported type {shown(node.tag.replace(TAG, '!!'))}; "
                          "write a number, a text, true or false without a tag")
+
+    def _refuse_mixed_commas(self, node):
+        """`[0, 2,73]` reads as 0, 2 and 73; in `[0,1]` no comma has a blank."""
+        items = node.value if node.flow_style else []
+        pairs = [(a, b) for a, b in zip(items, items[1:]) if is_number(a) and is_number(b)]
+        gaps = [self.text[a.end_mark.index : b.start_mark.index] for a, b in pairs]
+        if "," in gaps and any(gap != "," for gap in gaps):
+            a, b = pairs[gaps.index(",")]
+            raise HouseError(f"{self._where(a.start_mark)}: '{shown(a.value)[1:-1]},{shown(b.value)[1:-1]}' in a list"
+                             " whose other commas have a blank; write a decimal point, or a blank after each comma")
 
     def _table(self, node, depth):
         table = Table(where=self._where(node.start_mark))
@@ -159,6 +170,11 @@ class _Parser(yaml.SafeLoader):
 
     def _where(self, mark):
         return self.source or f"{self.file}:{mark.line + 1}"
+
+
+def is_number(node):
+    """Whether a node is a number as written: 2, -0.5"""
+    return isinstance(node, yaml.ScalarNode) and node.tag in (TAG + "int", TAG + "float")
 
 
 def _refuse_decimal_comma(where, key_node, previous, value_node):

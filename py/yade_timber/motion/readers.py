@@ -24,11 +24,14 @@ RIGHT_ANGLE_TOLERANCE = 1.0
 SUFFIXES = (("K-NET", r"\.(?:ns|ew|ud)", "PREFIX.NS .EW .UD"),
             ("KiK-net surface", r"\.(?:ns|ew|ud)2", "PREFIX.NS2 .EW2 .UD2"),
             ("KiK-net borehole", r"\.(?:ns|ew|ud)1", "PREFIX.NS1 .EW1 .UD1"),
-            ("PEER", r"(?:\d{3}|[-_.]?(?:up|dwn|ud|ver|vert|v|ns|ew)|[-_.][enz])\.at2",
-             "PREFIX000.AT2 PREFIX090.AT2 PREFIX-UP.AT2"))
+            ("PEER", r"(?:\d{3}|[-_.]?(?:up|dwn|ud|ver|vert|v|ns|ew)|[-_.][enz]|[hbe][nlhg][nez]|[ns]\d{2}[ew]|[lt])"
+                     r"\.at2",
+             "PREFIX000.AT2 PREFIX090.AT2 PREFIX-UP.AT2"),
+            ("PEER, KiK-net surface", r"(?:ns|ew|ud)2\.at2", "PREFIXNS2.AT2 ..."),
+            ("PEER, KiK-net borehole", r"(?:ns|ew|ud)1\.at2", "PREFIXNS1.AT2 ..."))
 """Endings of the names of a record's three files, tried in this order: of a KiK-net pair the surface sensor is taken
 (the borehole's three files can be named one by one)."""
-MAX_COMPONENTS = 3
+MAX_COMPONENTS, MAX_SHOWN_FILES = 3, 6
 SURPRISING = 5 * STANDARD_GRAVITY
 """Acceleration above which a warning is given. [m/s2]"""
 DEFAULT_RECORD = Path(__file__).resolve().parent.parent / "data" / "ojiya_like.csv"
@@ -134,7 +137,9 @@ def _find_by_prefix(prefix):
         if files:  # not another sensor in its place
             break
     forms = " or ".join(form for _, _, form in SUFFIXES)
-    seen = f"; found only {', '.join(sorted(partial))}" if partial else ""
+    others = [path.name for path in rests.values()][:MAX_SHOWN_FILES] if start else []
+    seen = (f"; found only {', '.join(sorted(partial))}" if partial else
+            f"; files of that beginning: {', '.join(others)}" if others else "")
     raise RecordError(f"{prefix}: no such file, and no three files {forms}{seen}")
 
 

@@ -210,4 +210,10 @@ def direction_of(name):
         azimuth = float("nan")
     if abs(azimuth) <= 360 and key[:1].isdecimal():
         return azimuth % 360
+    bearing = re.fullmatch(r"([ns])(\d{1,2})([ew])", key)  # N10E: 10 degrees from north towards east
+    if bearing:
+        away = float(bearing[2]) * (1 if bearing[3] == "e" else -1)
+        return (away if bearing[1] == "n" else 180 - away) % 360
+    channel = re.fullmatch(r"[hbe][nlhg]([nez])|(ns|ew|ud)[12]", key)  # HNE of a network; NS2 of KiK-net
+    key = channel[1] or channel[2] if channel else key
     return next((direction for direction, names in NAMES.items() if key in names.split()), None)

@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """All pictures of a run and its player, from the files in its folder."""
+import warnings
+from functools import partial
+
+from ..base.notes import noted
 from ..recording import ensemble, frames
 from ..recording.summary import Summary
 
@@ -13,15 +17,25 @@ NAMES = [f"{END}.png",
 def write(folder, results=None, pdf=False):
     """Write the pictures of a run into a folder; returns their paths. results: folder of the frames; pdf: PDFs, too.
 
-    Raises RunError when the frames cannot be read or nothing can be drawn, OSError when a picture cannot be written.
+    Without OpenGL those that need none are written, with a note. Raises RunError when the frames cannot be read,
+    OSError when a picture cannot be written.
     """
     from . import figures, player, sheets
+    from .renderer import NoOpenGL
 
     path, endings = (results or folder) / frames.NAME, ("png", "pdf") if pdf else ("png",)
     recorded = frames.load(path)
-    written = figures.save(sheets.both_views(recorded, -1, sheets.END_DPI), folder / END)
-    for name, page in _pages(recorded, path.parent):
-        written += figures.save(page, folder / name, endings)
+    pages = [(END, ("png",), partial(sheets.both_views, recorded, -1, sheets.END_DPI)),
+             *((name, endings, page) for name, page in _pages(recorded, path.parent))]
+    written, left_out = [], {}
+    for name, kinds, page in pages:
+        try:
+            written += figures.save(page(), folder / name, kinds)
+        except NoOpenGL as problem:
+            left_out[name] = problem
+    with noted():
+        if left_out:
+            warnings.warn(f"without {', '.join(left_out)}: {list(left_out.values())[-1]}")
     return [*written, player.make([(path, recorded)], folder / PLAYER)]
 
 
@@ -36,14 +50,14 @@ def draw(folder, views, page):
 
 
 def _pages(recorded, folder):
-    """(name, figure) of each page. folder: of the run's tables"""
+    """(name, function that draws the figure) of each page. folder: of the run's tables"""
     from . import bands, curves, quantities, sheets, views
 
     for view in views.VIEWS:
-        yield view.name, sheets.sheet(recorded, view, sheets.PRINT)
+        yield view.name, partial(sheets.sheet, recorded, view, sheets.PRINT)
     if recorded.history and recorded.history.samples:
-        yield CURVES, curves.page(recorded, curves.DPI)
+        yield CURVES, partial(curves.page, recorded, curves.DPI)
         if isinstance(recorded.summary, Summary) and (folder / quantities.JOINTS).exists():
-            yield QUANTITIES, quantities.page(quantities.read(folder), quantities.DPI)
+            yield QUANTITIES, partial(quantities.page, quantities.read(folder), quantities.DPI)
         if ensemble.has_runs(folder):
-            yield BANDS, bands.page(recorded, ensemble.histories(folder), bands.DPI)
+            yield BANDS, partial(bands.page, recorded, ensemble.histories(folder), bands.DPI)

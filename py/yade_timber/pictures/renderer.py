@@ -13,6 +13,8 @@ from PIL import Image
 from ..base.errors import RunError
 
 PACKAGES = "python3-moderngl libegl1 libegl-mesa0 libgl1-mesa-dri"
+EGL_DEVICES = 8
+"""Devices that are tried: graphics cards, and Mesa on the processor."""
 SHADERS = Path(__file__).resolve().parents[1] / "data" / "shaders.glsl"
 LAYOUT = ("3f 3f 3f", "place", "normal", "color")
 
@@ -31,16 +33,25 @@ def once_per_thread(make):
     return kept
 
 
+class NoOpenGL(RunError):
+    """This machine offers no OpenGL for pictures of bodies."""
+
+
 @once_per_thread
 def context():
-    """The OpenGL context of this thread. Raises RunError when there is none."""
+    """The OpenGL context of this thread, of the first EGL device that has one. Raises NoOpenGL."""
     try:
         import moderngl
-
-        return moderngl.create_context(standalone=True, backend="egl", require=330)
-    except Exception as problem:  # moderngl raises Exception itself
-        raise RunError(f"pictures need OpenGL on EGL ({' '.join(str(problem).split()) or type(problem).__name__}):"
-                       f" install {PACKAGES}") from None
+    except ImportError as problem:
+        raise NoOpenGL(f"pictures of the house need OpenGL on EGL ({problem}): install {PACKAGES}") from None
+    problems = []
+    for device in range(EGL_DEVICES):
+        try:
+            return moderngl.create_context(standalone=True, backend="egl", require=330, device_index=device)
+        except Exception as problem:  # moderngl raises Exception itself
+            problems.append(" ".join(str(problem).split()) or type(problem).__name__)
+    packages = f": install {PACKAGES}" if "not found" in problems[0] or "not load" in problems[0] else ""
+    raise NoOpenGL(f"pictures of the house need OpenGL 3.3 on EGL ({problems[0]}){packages}")
 
 
 @cache

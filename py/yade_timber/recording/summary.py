@@ -14,8 +14,21 @@ NAME = "summary.json"
 ANEW = "repeat the run with this version of the package"
 Drifts = dict[str, dict[str, float | None]]
 """{storey: {direction: drift [-], None where there is none}}"""
-Components = dict[str, float]
-"""{direction: value}"""
+
+
+class Components(dict):
+    """{direction: value}, the values also as attributes: `shear.ns`."""
+
+    @classmethod
+    def decoded(cls, value, path):
+        return cls(decode(dict[str, float], value, path))
+
+    def __getattr__(self, direction):
+        if direction not in self:
+            raise AttributeError(f"no direction {direction!r}; there are {', '.join(self)}")
+        return self[direction]
+
+
 Weight = table("Weight", total_kn=float, snow_kn=float, floor_area_m2=float, per_floor_area_kn_m2=float | None,
                storeys=dict[str, dict[str, Components]])
 Diagnosis = table(

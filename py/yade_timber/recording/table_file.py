@@ -2,8 +2,8 @@
 """HDF5 files of unknown origin: nothing is read before all that a file holds is of a stated layout.
 
 A layout: {group: Group}, the root named ''. A file may lack parts of it. What else HDF5 can hold is refused: links,
-data in other files, chunks and filters (nothing expands), types with a name, references, one object under two names. The
-entries of each table lie in the file as they are, and all together take no more bytes than the file has.
+data in other files, chunks and filters (nothing expands), types with a name, references, one object under two names.
+The entries of each table lie in the file as they are, and all together take no more bytes than the file has.
 """
 import math
 import os

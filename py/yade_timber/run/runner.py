@@ -249,11 +249,11 @@ class Run(Stoppable):
             tables = quantities.tables(self.observer)
             self.summary = summary.summary(self.scenario, self.observer, tables, self.wall_s, self.origin, cut_off)
             written = self._results(tables)
+        self.options.say(sentence(self.summary))
         with os_errors(lambda fault: f"{self.options.folder}: the results are written, the pictures are not ({fault});"
                                      " scripts/show/show_run.py makes them"):
             written += all_pictures.draw(self.options.folder, self.options.views, self.options.report)
         written += [path for path in (self.options.export, self.checkpoint_path) if path and path.exists()]
-        self.options.say(sentence(self.summary))
         self.options.say("written: " + ", ".join(str(path) for path in written))
         if not self.options.no_frames:
             show = f"xdg-open {quote(str(self.options.folder / all_pictures.PLAYER))}"

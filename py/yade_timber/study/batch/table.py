@@ -44,6 +44,7 @@ DECISIVE = {name: each for name, each in options(RunOptions).items() if each.met
 COLUMNS = {"house": DECISIVE["house"], **CHANGES, **DECISIVE}
 """{column: option}, without the column `description`. A run has an earthquake unless its record is NO_EARTHQUAKE."""
 DESCRIPTION = "description"
+NOT_UTF8 = "not UTF-8 text; save it as UTF-8 (in a spreadsheet: CSV UTF-8)"
 MIXED = ("the first line has no commas, so blanks separate the columns: separate the names in it by commas, too, or the"
          " values here by blanks alone")
 """Remedy for a table with blanks in the first line and commas in others."""
@@ -147,6 +148,7 @@ def read_table(path):
                          " blanks")
     separate = _csv_cells if "," in first else str.split
     heads = [head.rstrip("!") for head in separate(first)]
+    body = [(number, line) for number, line in body if separate is str.split or set(separate(line)) != {"*"}]
     _check_heads(heads, f"{path.name}:{number}")
     rows, above = [], {}
     for number, line in body:
@@ -156,8 +158,9 @@ def read_table(path):
                              f" {_remedy(first, line)}")
         if any(cell.endswith(",") for cell in cells):
             raise BatchError(f"{path.name}:{number}: values end in commas; {MIXED}")
+        cells = _named(cells, heads, f"{path.name}:{number}")
         above = {head: _resolved(cell, above.get(head), f"{path.name}:{number}, column {head}")
-                 for head, cell in zip(heads, cells)}
+                 for head, cell in cells}
         stated = {head: cell for head, cell in above.items() if cell != "*"}
         rows.append(Row(path, number, {h: c for h, c in stated.items() if h in COLUMNS}, stated.get(DESCRIPTION, "")))
         if "house" not in rows[-1].cells:
@@ -171,7 +174,7 @@ def _text_lines(path):
     try:
         text = read_bytes(path, MAX_FILE_SIZE).decode("utf-8-sig")
     except (OSError, ValueError) as problem:
-        raise BatchError(f"{path}: cannot be read: {getattr(problem, 'strerror', None) or 'not UTF-8 text'}") from None
+        raise BatchError(f"{path}: cannot be read: {getattr(problem, 'strerror', None) or NOT_UTF8}") from None
     lines = [(number, _without_comment(line)) for number, line in enumerate(text.splitlines(), 1)]
     return [(number, line) for number, line in lines if line.strip()]
 
@@ -198,7 +201,15 @@ def _csv_cells(line):
     return [cell.strip() or "*" for cell in next(csv.reader([line], skipinitialspace=True))]
 
 
+def _named(cells, heads, where):
+    """[(head, cell)] of a line, without the empty columns that a spreadsheet adds, whose head is '*' as well."""
+    for cell in (cell for cell, head in zip(cells, heads) if head == "*" and cell != "*"):
+        raise BatchError(f"{where}: the value '{cell}' is in a column without a name")
+    return [(head, cell) for head, cell in zip(heads, cells) if head != "*"]
+
+
 def _check_heads(heads, where):
+    heads = [head for head in heads if head != "*"]
     for head in heads:
         if not head.startswith("!") and head not in COLUMNS and head != DESCRIPTION:
             raise BatchError(f"{where}: unknown column '{head}', {nearest(head, [*COLUMNS, DESCRIPTION])}")
