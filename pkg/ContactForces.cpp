@@ -27,6 +27,13 @@ namespace {
 			for (int j = 0; j < 3; ++j)
 				body.inverseInertia(i, j) = scaled.row(i).dot(axes.row(j));
 	}
+
+	/// Work of a body that moves in a step of h [s], against forces on it. [J]
+	Real workAgainst(const BodyForces& forces, Body::id_t id, const State& s, Real h)
+	{
+		if (size_t(id) >= forces.force.size()) return 0;
+		return -h * (forces.force[id].dot(s.vel) + forces.torque[id].dot(s.angVel));
+	}
 }
 
 void ContactForces::validate() const
@@ -71,8 +78,9 @@ void ContactForces::collectPairs()
 void ContactForces::collectBody(Body::id_t id)
 {
 	const shared_ptr<Body>& b = (*scene->bodies)[id];
-	if (!b) return;
 	timber::SolverBody& body = bodies[id];
+	body.inverseMass = 0;
+	if (!b) return;
 	setBody(body, *b->state);
 	if (body.inverseMass == 0) return;
 	body.newVelocity += scene->dt * body.inverseMass * scene->forces.getForce(id);
@@ -86,10 +94,6 @@ void ContactForces::collectBodies()
 	sums.clear(count);
 	syncForces(*scene);
 	timber::forAll(count, [this](int id) { collectBody(id); });
-	for (const shared_ptr<Body>& b : *scene->bodies)
-		if (b && !isFree(*b->state) && !(b->state->vel.isZero(0) && b->state->angVel.isZero(0)))
-			imposedWork += imposedWorkOf(b->getId(), scene->forces.getForce(b->getId()),
-			        scene->forces.getTorque(b->getId())); // forces of joints
 }
 
 /// Bodies must not be placed deeper in each other than weights press them: their springs would throw them apart.
@@ -111,23 +115,44 @@ void ContactForces::findIslands()
 		return p.points > 0 ? timber::Link(end(p.id1), end(p.id2)) : timber::noLink;
 	});
 	std::transform(joints.begin(), joints.end(), links.begin() + pairs.size(),
-	        [&](const TimberJoint* j) { return timber::Link(end(j->id1), end(j->id2)); });
+	        [&](const ImplicitJoint& j) { return timber::Link(end(j.joint->id1), end(j.joint->id2)); });
 	islands.find(bodies.size(), links);
+	supports.clear();
+	for (size_t k = 0; k < links.size(); ++k)
+		if (math::min(links[k].first, links[k].second) < 0) supports.push_back(k);
+	linkForces.resize(links.size());
 }
 
-/// Work of a fixed body in a step against a force and torque on it. [J]
-Real ContactForces::imposedWorkOf(Body::id_t id, const Vector3r& force, const Vector3r& torque) const
+/// A fixed body may belong to several islands, which other threads solve: sumSupports() adds its forces.
+void ContactForces::addForce(size_t link, const timber::PairForce& f)
 {
-	return -scene->dt * (force.dot(bodies[id].velocity) + torque.dot(bodies[id].spin));
+	const auto [a, b] = links[link];
+	if (a >= 0) sums.add(a, -f.onB, f.torqueA);
+	if (b >= 0) sums.add(b, f.onB, f.torqueB);
+	if (math::min(a, b) < 0) linkForces[link] = f;
 }
 
-/// Returns the work of fixed bodies [J]. They may belong to several islands, which other threads solve.
-Real ContactForces::addForce(const timber::PairForce& f, Body::id_t id1, Body::id_t id2)
+/// Forces on fixed bodies, in the order of the links: they do not depend on the number of threads.
+void ContactForces::sumSupports()
 {
-	if (bodies[id1].inverseMass > 0) sums.add(id1, -f.onB, f.torqueA);
-	if (bodies[id2].inverseMass > 0) sums.add(id2, f.onB, f.torqueB);
-	return (bodies[id1].inverseMass > 0 ? 0 : imposedWorkOf(id1, -f.onB, f.torqueA))
-	        + (bodies[id2].inverseMass > 0 ? 0 : imposedWorkOf(id2, f.onB, f.torqueB));
+	for (const size_t link : supports) {
+		const timber::PairForce& f = linkForces[link];
+		const auto [a, b] = links[link];
+		if (a < 0) sums.add(~a, -f.onB, f.torqueA);
+		if (b < 0) sums.add(~b, f.onB, f.torqueB);
+	}
+}
+
+/// Work of fixed bodies that move, against the forces of contacts and joints on them.
+void ContactForces::addImposedWork()
+{
+	const JointEngine* springs = findEngine<JointEngine>(*scene);
+	for (const shared_ptr<Body>& b : *scene->bodies) {
+		if (!b || isFree(*b->state) || (b->state->vel.isZero(0) && b->state->angVel.isZero(0))) continue;
+		const Body::id_t id = b->getId();
+		imposedWork += workAgainst(sums, id, *b->state, scene->dt);
+		if (springs) imposedWork += workAgainst(springs->forces(), id, *b->state, scene->dt);
+	}
 }
 
 /// All phases of the solver (contact_solver.hpp) for one island, while it is in the processor's cache.
@@ -138,25 +163,26 @@ ContactForces::IslandResult ContactForces::solveIsland(timber::Islands::Island i
 	const int count = int(island.size()),
 	          pairCount = int(std::lower_bound(island.begin(), island.end(), int(pairs.size())) - island.begin());
 	const auto pair = [&](int k) -> const ContactPair& { return pairs[island[k]]; };
-	const auto joint = [&](int k) -> TimberJoint& { return *joints[island[k] - int(pairs.size())]; };
+	const auto joint = [&](int k) -> const ImplicitJoint& { return joints[island[k] - int(pairs.size())]; };
 	solver.begin(bodies, scene->dt, sweeps);
 	for (int k = 0; k < pairCount; ++k)
 		solver.addPair(pair(k).id1, pair(k).id2, pair(k).phys->records.data(), pair(k).points);
 	for (int k = pairCount; k < count; ++k)
-		solver.addJoint(joint(k).id1, joint(k).id2);
+		solver.addJoint(joint(k).joint->id1, joint(k).joint->id2);
 	timber::forAll(count, [&](int k) {
 		if (k < pairCount)
 			timber::prepareContacts(solver, k, pair(k).phys->properties(), pair(k).geom->contactPoints);
 		else prepareJoint(solver, k - pairCount, joint(k), *scene);
 	});
 	result.convergence = solver.solve(tolerance);
-	for (int k = 0; k < pairCount; ++k)
-		result.imposedWork
-		        += addForce(timber::storeForces(solver, k, pair(k).phys->properties(), result.energies),
-		                pair(k).id1, pair(k).id2);
+	for (int k = 0; k < pairCount; ++k) {
+		const timber::PairForce f = timber::storeForces(solver, k, pair(k).phys->properties(), result.energies);
+		pair(k).phys->normalForce = f.normalOnB;
+		pair(k).phys->shearForce = f.onB - f.normalOnB;
+		addForce(island[k], f);
+	}
 	for (int k = pairCount; k < count; ++k)
-		result.imposedWork += addForce(
-		        storeJoint(solver, k - pairCount, *scene, joint(k), result.joints), joint(k).id1, joint(k).id2);
+		addForce(island[k], storeJoint(solver, k - pairCount, *scene, joint(k), result.joints));
 	return result;
 }
 
@@ -172,7 +198,7 @@ void ContactForces::solveAll()
 
 void ContactForces::sumResults()
 {
-	elasticNormal = elasticShear = newmark = 0;
+	elasticNormal = elasticShear = 0;
 	for (const ContactPair& pair : pairs) {
 		placed += pair.placed;
 		released += math::max(Real(0), pair.released);
@@ -180,16 +206,16 @@ void ContactForces::sumResults()
 	}
 	int mostSweeps = 0;
 	Real largestChange = 0;
+	ImplicitJointResult inSolver;
 	bool allConverged = true;
 	for (const IslandResult& result : results) {
 		dashpotNormal += result.energies.dashpotNormal;
 		dashpotShear += result.energies.dashpotShear;
 		friction += result.energies.friction;
+		crushing += result.energies.crushing;
 		elasticNormal += result.energies.elasticNormal;
 		elasticShear += result.energies.elasticShear;
-		jointDashpot += result.joints.dissipated;
-		imposedWork += result.imposedWork;
-		newmark += result.joints.stored;
+		inSolver.add(result.joints);
 		mostSweeps = std::max(mostSweeps, result.convergence.sweeps);
 		allConverged = allConverged && result.convergence.converged;
 		largestChange = std::max(largestChange, result.convergence.change);
@@ -198,20 +224,69 @@ void ContactForces::sumResults()
 	sweepsMax = std::max(sweepsMax, mostSweeps);
 	if (!allConverged) ++unconverged;
 	worstChange = std::max(worstChange, largestChange);
+	addJoints(inSolver);
+}
+
+/// Energies and breaks of the joints in the solver.
+void ContactForces::addJoints(const ImplicitJointResult& result)
+{
+	elasticJoints = result.stored;
+	jointDashpot += result.dashpots;
+	jointDebt = result.debt;
+	JointEngine* engine = findEngine<JointEngine>(*scene);
+	if (!engine) return;
+	engine->yielded += result.yielded;
+	engine->released += result.released;
+	std::vector<ImplicitBreak> breaks = result.breaks;
+	std::sort(breaks.begin(), breaks.end(), [](const ImplicitBreak& a, const ImplicitBreak& b) {
+		return std::pair(a.joint, a.spring.spring) < std::pair(b.joint, b.spring.spring);
+	});
+	for (const ImplicitBreak& one : breaks)
+		engine->breakSpring(one.joint, one.spring);
+}
+
+/// YADE's container of forces is not saved.
+void ContactForces::preSave(ContactForces&)
+{
+	const shared_ptr<Scene>& current = Omega::instance().getScene();
+	if (findEngine<ContactForces>(*current, true) != this || !current->forces.getPermForceUsed()) return;
+	syncForces(*current); // before it, forces of bodies that were appended since are not found
+	const size_t count = current->bodies->size();
+	permanentForces.assign(count, Vector3r::Zero());
+	permanentTorques.assign(count, Vector3r::Zero());
+	for (const shared_ptr<Body>& b : *current->bodies) {
+		if (!b) continue;
+		permanentForces[b->getId()] = current->forces.getPermForce(b->getId());
+		permanentTorques[b->getId()] = current->forces.getPermTorque(b->getId());
+	}
+}
+
+/// After loading, in the first step: permanent forces that were set since then replace those of the file.
+void ContactForces::restorePermanentForces()
+{
+	const bool areOthersSet = scene->forces.getPermForceUsed();
+	for (size_t id = 0; id < permanentForces.size() && !areOthersSet; ++id) {
+		scene->forces.setPermForce(id, permanentForces[id]);
+		scene->forces.setPermTorque(id, permanentTorques[id]);
+	}
+	permanentForces.clear();
+	permanentTorques.clear();
 }
 
 void ContactForces::action()
 {
+	if (!permanentForces.empty()) restorePermanentForces();
 	collectPairs();
 	checkPlacements();
 	collectBodies();
-	JointEnergies lost;
-	findImplicitJoints(*scene, bodies, sweeps > 0, joints, lost);
-	jointDashpot += lost.dissipated;
-	created += lost.created;
+	const ImplicitJointResult lost = findImplicitJoints(*scene, bodies, sweeps > 0, joints);
+	jointDashpot += lost.dashpots;
+	created += lost.debt;
 	findIslands();
 	solveAll();
 	sumResults();
+	sumSupports();
+	addImposedWork();
 	sums.handOver(*scene);
 }
 
@@ -243,6 +318,27 @@ std::vector<timber::PointSpring> ContactForces::linearSprings(
 		}
 	if (const JointEngine* joints = findEngine<JointEngine>(scene)) joints->addSprings(scene, springs);
 	return springs;
+}
+
+Real ContactForces::dashpotPower(const Scene& scene, const std::vector<timber::SolverBody>& bodies)
+{
+	std::vector<ContactPair> contacts;
+	findPairs(scene, contacts);
+	Real power = yade::dashpotPower(scene, bodies);
+	for (const ContactPair& pair : contacts) {
+		const timber::SolverBody &a = bodies[pair.id1], &b = bodies[pair.id2];
+		const timber::PairProperties properties = pair.phys->properties();
+		for (size_t k = 0; k < pair.points; ++k) {
+			const timber::ContactPoint& at = pair.geom->contactPoints[k];
+			const Vector3r u = timber::relativeVelocity<double>(at.position - a.position,
+			        at.position - b.position, a.velocity, a.spin, b.velocity, b.spin);
+			const Real along = u.dot(at.normal),
+			           cn = timber::normalDamping<double>(properties, pair.phys->records[k].stiffness),
+			           cs = timber::shearDamping<double>(properties, cn);
+			power += cn * along * along + cs * (u.squaredNorm() - along * along);
+		}
+	}
+	return power;
 }
 
 Real ContactForces::largestEigenvalue() const

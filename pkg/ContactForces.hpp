@@ -24,19 +24,20 @@ class ContactForces : public GlobalEngine {
 	};
 	struct IslandResult {
 		timber::PairEnergies energies;
-		JointEnergies joints;
+		ImplicitJointResult joints;
 		timber::Convergence convergence;
-		Real imposedWork = 0; ///< by the contacts of fixed bodies that move [J]
 	};
 	std::vector<ContactPair> pairs, unordered; ///< ordered by body ids, and in the container's order
 	std::vector<size_t> order; ///< of each of `pairs`, its index in `unordered`
-	std::vector<TimberJoint*> joints; ///< damped or stiff
+	std::vector<ImplicitJoint> joints; ///< damped or stiff
 	timber::Islands islands; ///< of the pairs, and of the joints after them
 	std::vector<timber::Link> links; ///< of each pair and joint
 	std::vector<timber::ContactSolver> solvers; ///< of each thread
 	std::vector<timber::SolverBody> bodies; ///< indexed by body id
 	std::vector<IslandResult> results; ///< of each island
-	BodyForces sums; ///< of contacts and joint dashpots, on free bodies
+	std::vector<size_t> supports; ///< of the links, those with a fixed body
+	std::vector<timber::PairForce> linkForces; ///< of those links
+	BodyForces sums; ///< of contacts, and of the joints that the solver treats
 
 	static void findPairs(const Scene&, std::vector<ContactPair>&);
 	void sortPairs();
@@ -45,18 +46,25 @@ class ContactForces : public GlobalEngine {
 	void collectBodies();
 	void checkPlacements() const;
 	void findIslands();
-	Real imposedWorkOf(Body::id_t id, const Vector3r& force, const Vector3r& torque) const;
-	Real addForce(const timber::PairForce&, Body::id_t id1, Body::id_t id2);
+	void addForce(size_t link, const timber::PairForce&);
+	void sumSupports();
+	void addImposedWork();
+	void restorePermanentForces();
 	IslandResult solveIsland(timber::Islands::Island);
 	void solveAll();
 	void sumResults();
+	void addJoints(const ImplicitJointResult&);
 
 public:
 	void postLoad(ContactForces&) { validate(); }
+	void preSave(ContactForces&);
 	void validate() const;
 	void action() override;
 	/// Largest eigenvalue of M^-1 K of the present contacts and joints of the current scene. [1/s2]
 	Real largestEigenvalue() const;
+	/// Power that the present dashpots of a scene take from its bodies at these velocities, linearised: contacts
+	/// neither slide nor open. bodies: masses, placements and velocities, indexed by body id [W]
+	static Real dashpotPower(const Scene&, const std::vector<timber::SolverBody>& bodies);
 	/// Linearised springs of the present contacts and joints of a scene. bodies: masses and placements, indexed by
 	/// body id
 	static std::vector<timber::PointSpring> linearSprings(const Scene&, const std::vector<timber::SolverBody>&);
@@ -65,9 +73,9 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(ContactForces, GlobalEngine,
-		"Adds the contact forces to the bodies: elastic forces of the laws, dashpots (paper, Eqs. 17, 18, "
+		"Adds the contact forces to the bodies, free and fixed: elastic forces of the laws, dashpots (paper, Eqs. 17, 18, "
 		"21-24), no tension, Coulomb friction. Adds the forces of the joints' dashpots "
-		"(TimberJoint.dampingRatio), too. "
+		"(TimberJoint.dampingRatio, TimberJoint.dampingTime), too. "
 		"Must come after the InteractionLoop and all other forces (joints, gravity, ground motion) and before "
 		"the integrator: the dashpots act on the mean velocity of the step, which depends on them.",
 		((int, sweeps, 10000, Attr::triggerPostLoad, "Largest number of Gauss-Seidel sweeps for the implicit "
@@ -85,18 +93,25 @@ public:
 		((Real, dashpotNormal, 0, , "Energy dissipated by normal dashpots. [J]"))
 		((Real, dashpotShear, 0, , "Energy dissipated by tangential dashpots. [J]"))
 		((Real, friction, 0, , "Energy dissipated by sliding. [J]"))
+		((Real, crushing, 0, , "Energy dissipated by contacts at their bearing strength. [J]"))
 		((Real, jointDashpot, 0, , "Energy dissipated by the dashpots of joints. [J]"))
 		((Real, released, 0, , "Elastic energy released with loaded points that ceased to exist, minus the "
 			"energy given to new points. [J]"))
 		((Real, placed, 0, , "Energy that normal springs had because bodies were placed in contact. [J]"))
 		((Real, created, 0, , "Energy that contact points and joints returned beyond their stored energy, "
 			"counted when they cease to exist. [J]"))
+		((Real, jointDebt, 0, , "Energy that stiff joints have returned beyond their stored energy so far. "
+			"[J]"))
 		((Real, imposedWork, 0, , "Work that fixed bodies have done on others by moving. [J]"))
-		((Real, newmark, 0, , "Energy of Newmark's term of stiff joints. [J]"))
+		((Real, elasticJoints, 0, , "Energy that stiff joints have stored in the middle between the last "
+			"placement and the next one. [J]"))
 		((Real, elasticNormal, 0, , "Energy of the normal springs in the middle between the last placement and "
 			"the next one. [J]"))
 		((Real, elasticShear, 0, , "Energy of the tangential springs in the middle between the last placement "
-			"and the next one. [J]")),
+			"and the next one. [J]"))
+		((vector<Vector3r>, permanentForces, , Attr::hidden, "Of a loaded scene before its first step, by body "
+			"id: forces of O.forces.setPermF. [N]"))
+		((vector<Vector3r>, permanentTorques, , Attr::hidden, "Torques of O.forces.setPermT. [N m]")),
 		,
 		.def("largestEigenvalue", &ContactForces::largestEigenvalue, "Largest eigenvalue of M^-1 K of the "
 			"present contacts and joints of the scene. [1/s2]")

@@ -46,11 +46,12 @@ public:
 	DEFINE_FUNCTOR_ORDER_2D(RoundedPolyhedron, RoundedPolyhedron);
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(Ig2_RoundedPolyhedron_RoundedPolyhedron_ManifoldGeom, IGeomFunctor,
-		"Contact points between two polyhedra: vertex-face and edge-edge, as in the paper (section 2.2). The "
+		"Contact points between two polyhedra: vertex-face and edge-edge, as in the paper (section 2.2), and "
+		"vertex-edge and vertex-vertex. The "
 		"interaction exists while the bounding boxes overlap, so that the candidate features of a near pair "
 		"are cached. Periodic cells are not supported.",
-		((bool, vertexEdge, false, , "Also vertex-edge and vertex-vertex contacts, which the paper ignores. "
-			"[-]"))
+		((bool, vertexEdge, true, , "Also vertex-edge and vertex-vertex contacts. The paper ignores them: "
+			"edges and corners sink into each other where only they meet. [-]"))
 		((bool, flushSupports, true, , "A vertex exactly above the border of a face (flush members) is "
 			"supported by the face. [-]"))
 	);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <ContactPhysics.hpp>
+#include <Integrator.hpp>
 #include <bodies.hpp>
 #include <validation.hpp>
 #include <set>
@@ -31,6 +32,7 @@ namespace {
 		phys.shearRatio = shearRatio;
 		phys.dampingRatio = dampingRatio;
 		phys.overlapLimit = shapeOf(b1).radius + shapeOf(b2).radius;
+		phys.bearingRadius = math::min(shapeOf(b1).radius, shapeOf(b2).radius);
 	}
 
 	/// Contact stiffness of an element of snow; infinite for timber (SceneCheck.cpp refuses pairs without snow).
@@ -64,19 +66,6 @@ namespace {
 		return true;
 	}
 
-	/// Relative speed below which the points of a new pair were placed in contact, and have not flown there. [m/s]
-	constexpr Real restSpeed = 0.1;
-
-	bool isPlaced(const ManifoldGeom& geom, const State& a, const State& b)
-	{
-		return std::all_of(geom.contactPoints.begin(), geom.contactPoints.end(), [&](const auto& p) {
-			return timber::relativeVelocity<double>(
-			               p.position - a.pos, p.position - b.pos, a.vel, a.angVel, b.vel, b.angVel)
-			               .norm()
-			        < restSpeed;
-		});
-	}
-
 	bool boundsOverlap(const Body& b1, const Body& b2)
 	{
 		return b1.bound && b2.bound && (b1.bound->min.array() <= b2.bound->max.array()).all()
@@ -95,16 +84,19 @@ namespace {
 			return boundsOverlap(b1, b2);
 		}
 		phys.power = Law::power;
+		phys.strength = timber::bearingStrength(phys.bearing, phys.bearingRadius, geom.contactPoints);
 		const timber::PairProperties pair = phys.properties();
-		const bool placed = phys.records.empty() && I->isFresh(scene) && isPlaced(geom, *b1.state, *b2.state);
+		const bool placed = phys.records.empty() && (wasPlaced(*scene, b1) || wasPlaced(*scene, b2));
 		phys.releasedEnergy = timber::elasticPair(law,
 		        { pair, kinematics(*b1.state), kinematics(*b2.state), scene->dt, form, placed },
 		        geom.contactPoints, phys.records);
 		phys.placedEnergy = phys.placedOverlap = 0;
 		for (size_t k = 0; placed && k < phys.records.size(); ++k) {
+			if (!(phys.records[k].normalStored > 0)) continue; // reached by its approach
 			phys.placedEnergy += phys.records[k].normalStored;
 			phys.placedOverlap = math::max(phys.placedOverlap, Real(phys.records[k].overlap));
 		}
+		if (phys.records.empty()) phys.normalForce = phys.shearForce = Vector3r::Zero();
 		return true;
 	}
 
@@ -133,6 +125,8 @@ void ManifoldPhys::validate() const
 	requirePositive("ManifoldPhys.shearRatio", shearRatio);
 	requireNonNegative("ManifoldPhys.dampingRatio", dampingRatio);
 	requirePositive("ManifoldPhys.overlapLimit", overlapLimit);
+	require(bearing > 0, "ManifoldPhys.bearing", bearing, "> 0");
+	requireNonNegative("ManifoldPhys.bearingRadius", bearingRadius);
 }
 
 void TimberPhys::validate() const
@@ -173,8 +167,11 @@ void Ip2_TimberMat_TimberMat_TimberPhys::go(
 	const TimberMat &t1 = *static_cast<TimberMat*>(m1.get()), &t2 = *static_cast<TimberMat*>(m2.get());
 	const Body &b1 = *Body::byId(I->getId1(), scene), &b2 = *Body::byId(I->getId2(), scene);
 	TimberPhys& phys = updatePhys<TimberPhys>(*I, b1, b2);
-	if (!haveChanged(phys, { t1.friction, t1.young, t1.poisson, t2.friction, t2.young, t2.poisson, dampingRatio }))
+	if (!haveChanged(phys,
+	            { t1.friction, t1.young, t1.poisson, t1.bearing, t2.friction, t2.young, t2.poisson, t2.bearing,
+	                    dampingRatio }))
 		return;
+	phys.bearing = math::min(t1.bearing, t2.bearing);
 	const Real poisson = (t1.poisson + t2.poisson) / 2;
 	setProperties(phys, b1, b2, t1.friction, t2.friction, 1 / (2 * (1 + poisson)), dampingRatio);
 	phys.modulus = timber::equivalentModulus(t1.young, t1.poisson, t2.young, t2.poisson);

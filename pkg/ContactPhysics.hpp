@@ -5,6 +5,7 @@
 #include <ContactGeometry.hpp>
 #include <Materials.hpp>
 #include <kernel/contact_pair.hpp>
+#include <pkg/common/NormShearPhys.hpp>
 
 namespace boost {
 namespace serialization {
@@ -14,8 +15,8 @@ namespace serialization {
 	}
 	template <class Archive> void serialize(Archive& ar, timber::PointHistory& p, const unsigned int)
 	{
-		ar& make_nvp("id", p.id.bits) & make_nvp("excess", p.excess) & make_nvp("overlap", p.overlap)
-		        & make_nvp("stiffness", p.stiffness);
+		ar& make_nvp("id", p.id.bits) & make_nvp("excess", p.excess) & make_nvp("crushed", p.crushed)
+		        & make_nvp("overlap", p.overlap) & make_nvp("stiffness", p.stiffness);
 		ar& make_nvp("normal", p.normalForce) & make_nvp("energy", p.energy) & make_nvp("shear", p.shearForce)
 		        & make_nvp("dashpot", p.dashpotForce) & make_nvp("normalStored", p.normalStored)
 		        & make_nvp("shearStored", p.shearStored) & make_nvp("impact", p.impact);
@@ -30,25 +31,26 @@ namespace serialization {
 
 namespace yade {
 
-/// Base of all contact laws' IPhys.
-class ManifoldPhys : public IPhys {
+/// Base of all contact laws' IPhys. YADE's functions read the attributes of NormShearPhys: the forces of the last step.
+class ManifoldPhys : public NormShearPhys {
 public:
 	void postLoad(ManifoldPhys&) { ManifoldPhys::validate(); }
 	void validate() const;
 	/// Of bodies that were placed in contact, in this step only: of all springs [J], of the deepest point [m]
 	Real placedEnergy = 0, placedOverlap = 0;
+	timber::BearingStrength strength; ///< of each point, in this step
 	/// No contact points, and no energy released in the last step.
 	bool isIdle() const { return records.empty() && releasedEnergy == 0; }
 	timber::PairProperties properties() const
 	{
-		return { mass, friction, shearRatio, overlapLimit, dampingRatio, power };
+		return { mass, friction, shearRatio, overlapLimit, dampingRatio, power, strength };
 	}
 	/// Contact points as tuples, see ``yade_timber.contacts``.
 	boost::python::list pyPoints() const;
 
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(ManifoldPhys, IPhys, "Properties of a pair in contact and the history of its "
-		"points.",
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(ManifoldPhys, NormShearPhys, "Properties of a pair in contact and the history "
+		"of its points. ``normalForce`` and ``shearForce`` [N]: sums over the points in the last step.",
 		((Real, mass, NaN, Attr::triggerPostLoad, "Equivalent mass of the two elements. [kg] (paper, Eq. 43)"))
 		((Real, friction, NaN, Attr::triggerPostLoad, "Coulomb friction coefficient. [-]"))
 		((Real, shearRatio, NaN, Attr::triggerPostLoad, "K_s / K_n. [-] (paper, Eq. 40)"))
@@ -56,6 +58,9 @@ public:
 			"(paper, Eqs. 41-42: 1)"))
 		((Real, overlapLimit, NaN, Attr::triggerPostLoad, "Overlap beyond which the normal force is constant: "
 			"the cores touch. [m]"))
+		((Real, bearing, std::numeric_limits<Real>::infinity(), Attr::triggerPostLoad, "Bearing strength of "
+			"the weaker material; infinite: elastic. [Pa]"))
+		((Real, bearingRadius, 0, Attr::triggerPostLoad, "Smaller rounding radius of the two elements. [m]"))
 		((Real, power, timber::HertzLaw::power, Attr::readonly, "Exponent of the contact law. [-]"))
 		((vector<timber::PointRecord>, records, , Attr::hidden, "History of the contact points, sorted by "
 			"feature id. [-]"))
@@ -68,7 +73,7 @@ public:
 			"list of (feature id, elastic normal force [N], elastic shear force [N], dashpot force [N]).")
 	);
 	// clang-format on
-	REGISTER_CLASS_INDEX(ManifoldPhys, IPhys);
+	REGISTER_CLASS_INDEX(ManifoldPhys, NormShearPhys);
 };
 REGISTER_SERIALIZABLE(ManifoldPhys);
 

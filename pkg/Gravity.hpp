@@ -19,4 +19,7 @@ public:
 };
 REGISTER_SERIALIZABLE(UniformGravity);
 
+/// Acceleration of gravity in a scene, from this package's engine or YADE's. [m/s2]
+Vector3r gravityOf(const Scene&);
+
 } // namespace yade

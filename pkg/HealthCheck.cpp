@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <HealthCheck.hpp>
+#include <Integrator.hpp>
 #include <JointEngine.hpp>
 #include <bodies.hpp>
 #include <SceneCheck.hpp>
@@ -46,7 +47,7 @@ HealthCheck::CheckedBody::CheckedBody(const Body& b)
 
 bool HealthCheck::CheckedBody::canKeepContacts(const Body& b) const
 {
-	return areSame(shape, b.shape) && materialClass == classOf(b.material);
+	return areSame(shape, b.shape) && materialClass == classOf(b.material) && mask == b.groupMask;
 }
 
 bool HealthCheck::CheckedBody::isCurrent(const Body& b) const
@@ -101,8 +102,8 @@ void HealthCheck::checkBodies() const
 	}
 }
 
-/// Removes the contacts of bodies whose shape, or class of material, is another one, and those of an earlier list of
-/// bodies. The collider finds the present ones.
+/// Removes the contacts of bodies whose shape, class of material or group is another one, and those of an earlier list
+/// of bodies. The collider finds the present ones.
 void HealthCheck::forgetContacts()
 {
 	InteractionContainer& contacts = *scene->interactions;
@@ -118,6 +119,7 @@ void HealthCheck::forgetContacts()
 		const auto ofBody = b->intrs; // a copy: `erase` changes it
 		for (const auto& contact : ofBody)
 			contacts.erase(contact.second->getId1(), contact.second->getId2(), contact.second->linIx);
+		markPlaced(*scene, b->getId());
 		contacts.dirty = true; // the collider looks at all pairs again
 	}
 	scene->doSort = true;
@@ -149,9 +151,9 @@ void HealthCheck::checkScene()
 	checkedScene = current;
 	checkedParts = parts;
 	checkedStep = scene->dt;
-	checkedBodies.clear();
+	checkedBodies.assign(scene->bodies->size(), boost::none); // YADE's iterator skips erased bodies
 	for (const shared_ptr<Body>& b : *scene->bodies)
-		checkedBodies.emplace_back(b ? boost::make_optional(CheckedBody(*b)) : boost::none);
+		checkedBodies[b->getId()] = CheckedBody(*b);
 }
 
 /// Parts of a body are replaced between checks of the scene only; numbers of its state may change at any time.
@@ -178,14 +180,30 @@ void HealthCheck::action()
 	if (!(scene->dt > 0 && std::isfinite(scene->dt)))
 		throw std::runtime_error("O.dt = " + std::to_string(scene->dt) + " s: it must be finite and > 0");
 	if (scene->isPeriodic) throw std::runtime_error("O.periodic = True: periodic cells are not supported");
-	if (scene->iter == 0 && scene->dt == defaultStep)
+	if (scene->dt == defaultStep && checkedStep != defaultStep)
 		std::cerr << "O.dt = " << scene->dt
 		          << " s is YADE's default, with which nothing seems to move; set O.dt, "
 		          << "1e-4 for timber\n";
 	const bool changed = hasSceneChanged();
 	if (changed) checkScene();
 	takeOverRotations();
-	if (changed || scene->iter % every == 0) check();
+	if (!changed && scene->iter % every != 0) return;
+	check();
+	if (!areFastNoted) noteFastBodies();
+}
+
+/// A contact begins as deep as its bodies approach each other in a step.
+void HealthCheck::noteFastBodies()
+{
+	for (const shared_ptr<Body>& b : *scene->bodies) {
+		const RoundedPolyhedron* shape = b ? roundedShape(*b) : nullptr;
+		if (!shape || !(b->state->vel.norm() * scene->dt > shape->radius)) continue;
+		std::cerr << "body " << b->getId() << " moves by " << 1000 * b->state->vel.norm() * scene->dt
+		          << " mm in a step, more than its rounding radius of " << 1000 * shape->radius
+		          << " mm, and may enter what it hits as deep: O.dt = " << scene->dt << " s is large for it\n";
+		areFastNoted = true;
+		return;
+	}
 }
 
 void HealthCheck::check() const

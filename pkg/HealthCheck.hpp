@@ -23,7 +23,7 @@ class HealthCheck : public GlobalEngine {
 		Vector3r inertia;
 
 		explicit CheckedBody(const Body&);
-		/// Whether its contacts are still valid: same shape, material of the same class.
+		/// Whether its contacts are still valid: same shape and group, material of the same class.
 		bool canKeepContacts(const Body&) const;
 		bool isCurrent(const Body&) const;
 	};
@@ -32,6 +32,7 @@ class HealthCheck : public GlobalEngine {
 	std::vector<const void*> checkedParts, parts;
 	Real checkedStep = NaN; ///< O.dt at the last check of the scene [s]
 	boost::weak_ptr<Scene> checkedScene;
+	bool areFastNoted = false;
 
 	bool hasSceneChanged();
 	bool haveBodiesChanged() const;
@@ -41,6 +42,7 @@ class HealthCheck : public GlobalEngine {
 	void forgetContacts();
 	void takeOverRotations();
 	void checkState(const Body&) const;
+	void noteFastBodies();
 
 public:
 	void postLoad(HealthCheck&) { validate(); }
@@ -54,10 +56,10 @@ public:
 		"When bodies, their parts and masses, joints, engines, functors or the time step were changed it checks "
 		"that the list of engines is complete, in order, without a second integrator and of this scene, that "
 		"all pairs of shapes and materials have functors, that materials and masses are valid, and that the step "
-		"is small enough for the joints. "
+		"is small enough for contacts under gravity and for the joints. "
 		"A free body with an angular velocity but no angular momentum gets the momentum of that velocity. "
 		"Then and at an interval it checks that positions and velocities are finite, speeds and rotations "
-		"plausible.",
+		"plausible, and names the first body that moves by more than its radius in a step.",
 		((int, every, 100, Attr::triggerPostLoad, "Steps between checks of the bodies. [-]"))
 		((Real, speedLimit, 200, Attr::triggerPostLoad, "Largest plausible speed of a body. [m/s]"))
 		((Real, turnLimit, 1.5, Attr::triggerPostLoad, "Largest plausible rotation of a free body in a step. "

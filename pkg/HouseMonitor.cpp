@@ -4,7 +4,6 @@
 #include <bodies.hpp>
 #include <sampling.hpp>
 #include <validation.hpp>
-#include <pkg/common/GravityEngines.hpp>
 
 namespace yade {
 
@@ -14,14 +13,6 @@ namespace {
 	/// Columns of each level and their units.
 	const std::pair<const char*, const char*> levelColumns[]
 	        = { { "drift_ns", " [-]" }, { "drift_ew", " [-]" }, { "drop", " [m]" } };
-
-	/// Acceleration of gravity, this package's or YADE's. [m/s2]
-	Vector3r gravityOf(const Scene& scene)
-	{
-		if (const auto* engine = findEngine<UniformGravity>(scene)) return engine->gravity;
-		const auto* other = findEngine<GravityEngine>(scene);
-		return other ? other->gravity : Vector3r(Vector3r::Zero());
-	}
 
 	/// [J]
 	Real kineticEnergy(const Scene& scene)
@@ -57,6 +48,32 @@ namespace {
 		        engine->joints.begin(), engine->joints.end(), [](const auto& j) { return j->isBroken(); }));
 	}
 
+	/// Whether each body has a joint with a spring left; all without a JointEngine.
+	std::vector<bool> joinedBodies(const Scene& scene)
+	{
+		const JointEngine* engine = findEngine<JointEngine>(scene);
+		std::vector<bool> joined(scene.bodies->size(), !engine);
+		for (size_t k = 0; engine && k < engine->joints.size(); ++k) {
+			const TimberJoint& j = *engine->joints[k];
+			if (!j.isBroken() && bodyAt(scene, j.id1) && bodyAt(scene, j.id2))
+				joined[j.id1] = joined[j.id2] = true;
+		}
+		return joined;
+	}
+
+	/// Absolute values: the largest one, and that of the median. values: at least one, in any order; out: another
+	/// one
+	std::pair<Real, Real> largestAndMedian(std::vector<Real>& values)
+	{
+		const auto [low, high] = std::minmax_element(values.begin(), values.end());
+		const Real largest = math::max(math::abs(*low), math::abs(*high));
+		const size_t half = values.size() / 2;
+		std::nth_element(values.begin(), values.begin() + half, values.end());
+		const Real upper = values[half];
+		if (values.size() % 2) return { largest, math::abs(upper) };
+		return { largest, math::abs(upper + *std::max_element(values.begin(), values.begin() + half)) / 2 };
+	}
+
 	/// Scene and the engines that store energies, also those that are switched off; null if there is none.
 	struct EnergySources {
 		const Scene& scene;
@@ -68,7 +85,7 @@ namespace {
 	/// Elastic energy of joints after a whole step. [J]
 	Real jointEnergy(const EnergySources& s)
 	{
-		Real energy = s.contacts ? s.contacts->newmark : 0;
+		Real energy = s.contacts ? s.contacts->elasticJoints : 0;
 		if (s.joints) energy += s.joints->elastic;
 		if (s.joints && !s.joints->dead) energy += s.scene.dt / 2 * s.joints->elasticPower(s.scene);
 		return energy;
@@ -93,6 +110,7 @@ namespace {
 		{ "dashpot_normal", [](Sources s) { return s.contacts ? s.contacts->dashpotNormal : 0; } },
 		{ "dashpot_shear", [](Sources s) { return s.contacts ? s.contacts->dashpotShear : 0; } },
 		{ "friction", [](Sources s) { return s.contacts ? s.contacts->friction : 0; } },
+		{ "crushing", [](Sources s) { return s.contacts ? s.contacts->crushing : 0; } },
 		{ "broken_springs", [](Sources s) { return s.joints ? s.joints->released : 0; } },
 		{ "lost_contacts", [](Sources s) { return s.contacts ? s.contacts->released : 0; } },
 		{ "joint_dashpot", [](Sources s) { return s.contacts ? s.contacts->jointDashpot : 0; } },
@@ -114,6 +132,11 @@ void HouseMonitor::validate() const
 		requirePositive("HouseMonitor.heights", height);
 	for (int level : levels)
 		require(level >= 0, "HouseMonitor.levels", level, ">= 0");
+	for (int storey : columnStoreys)
+		require(storey >= 1, "HouseMonitor.columnStoreys", storey, ">= 1");
+	require(columnBodies.empty() || columnStoreys.empty() || columnBodies.size() == columnStoreys.size(),
+	        "HouseMonitor.columnStoreys: length", columnStoreys.size(),
+	        "that of HouseMonitor.columnBodies; set both with updateAttrs()");
 	const bool isComplete = !levels.empty() && !bodies.empty(); // attributes may be set one after the other
 	require(!isComplete || levels.size() == bodies.size(), "HouseMonitor.levels: length", levels.size(),
 	        "that of HouseMonitor.bodies; set both with updateAttrs()");
@@ -159,8 +182,31 @@ boost::python::list HouseMonitor::pyColumns() const
 	return names;
 }
 
+void HouseMonitor::recordColumns()
+{
+	const std::vector<bool> joined = joinedBodies(*scene);
+	std::vector<std::vector<Real>> drifts(2 * heights.size()); // in the order of peak
+	for (size_t k = 0; k < math::min(columnBodies.size(), columnStoreys.size()); ++k) {
+		const Body* b = bodyAt(*scene, columnBodies[k]);
+		if (!b || !joined[columnBodies[k]] || size_t(columnStoreys[k]) > heights.size()) continue;
+		const Vector3r axis = b->state->ori * (b->state->refOri.conjugate() * Vector3r::UnitZ());
+		if (axis.z() < math::sqrt(Real(0.5))) continue;
+		drifts[2 * columnStoreys[k] - 2].push_back(axis.y());
+		drifts[2 * columnStoreys[k] - 1].push_back(axis.x());
+	}
+	columnPeak.resize(drifts.size(), 0);
+	medianPeak.resize(drifts.size(), 0);
+	for (size_t k = 0; k < drifts.size(); ++k) {
+		if (drifts[k].empty()) continue;
+		const auto [largest, median] = largestAndMedian(drifts[k]);
+		columnPeak[k] = math::max(columnPeak[k], largest);
+		medianPeak[k] = math::max(medianPeak[k], median);
+	}
+}
+
 void HouseMonitor::record()
 {
+	if (!columnBodies.empty()) recordColumns();
 	rows.push_back(scene->time);
 	Vector3r below = Vector3r::Zero();
 	peak.resize(2 * heights.size(), 0);

@@ -10,6 +10,7 @@ namespace yade {
 class HouseMonitor : public GlobalEngine {
 	/// Of the centre of mass of a level since the start. [m]
 	Vector3r displacementOf(int level) const;
+	void recordColumns();
 	void record();
 
 public:
@@ -24,7 +25,8 @@ public:
 		"Samples storey drifts, broken joints and energies at an interval. Drift of a storey is the "
 		"horizontal displacement of the level above it minus that of the level below, over the storey's "
 		"height. A level's displacement is that of the centre of mass of its bodies. A level that has "
-		"dropped by half the height of its storey counts as collapsed. "
+		"dropped by half the height of its storey counts as collapsed. Drifts at columns are the horizontal "
+		"displacements of their heads relative to their feet, over their length. "
 		"Must come after the integrator. Energies are those at the half step to which the velocities belong: "
 		"elastic energies of the last placement are extrapolated with their rate.",
 		((Real, interval, 0.01, Attr::triggerPostLoad, "Simulated time between samples; 0: every step. [s]"))
@@ -39,6 +41,13 @@ public:
 		((Real, collapseTime, NaN, , "Time at which a level had dropped by half a storey. [s]"))
 		((vector<Real>, peak, , , "Largest drift so far: north-south and east-west of storey 1, of storey 2, "
 			"... [-]"))
+		((vector<int>, columnBodies, , Attr::triggerPostLoad, "Ids of the columns, which stand vertically at the "
+			"start. [-]"))
+		((vector<int>, columnStoreys, , Attr::triggerPostLoad, "Storey of each of these columns, from 1. [-]"))
+		((vector<Real>, columnPeak, , , "Largest drift at a column so far, in the order of peak; without columns "
+			"that are inclined by more than 45 degrees or have no joint. [-]"))
+		((vector<Real>, medianPeak, , , "Largest median of the drifts at these columns so far, in the order of "
+			"peak. [-]"))
 		((Real, nextSample, 0, Attr::readonly, "Simulated time of the next sample. [s]"))
 		((vector<Real>, rows, , , "Samples, one after the other, in the order of columns(). [-]")),
 		,

@@ -17,48 +17,156 @@ namespace {
 			joint.modes = timber::jointModes(a, b, qA.toRotationMatrix(), joint.springGroup(), now);
 	}
 
-	bool isImplicit(
-	        TimberJoint& joint, const Scene& scene, const std::vector<timber::SolverBody>& bodies, bool alsoStiff)
+	/// Whether two bodies have a joint that may be in the solver; with its modes.
+	bool hasModes(TimberJoint& joint, const Scene& scene, const std::vector<timber::SolverBody>& bodies)
 	{
-		if ((joint.dampingRatio == 0 && !alsoStiff) || joint.isBroken() || joint.id1 == joint.id2) return false;
+		if (joint.isBroken() || joint.id1 == joint.id2) return false;
 		const Body *b1 = bodyAt(scene, joint.id1), *b2 = bodyAt(scene, joint.id2);
 		if (!b1 || !b2) return false;
 		const timber::SolverBody &a = bodies[joint.id1], &b = bodies[joint.id2];
 		if (timber::pairInverseMass(a, b) == 0) return false;
 		updateModes(joint, b1->state->ori, b2->state->ori, a, b);
-		return joint.dampingRatio > 0 || joint.modes.isStiff(scene.dt);
+		return true;
+	}
+
+	/// A joint that stops being stiff without a step of the solver.
+	void release(TimberJoint& joint, ImplicitJointResult& result)
+	{
+		(joint.storedEnergy > 0 ? result.dashpots : result.debt) += math::abs(joint.storedEnergy);
+		joint.soften();
+	}
+
+	timber::SpringSteps springSteps(TimberJoint& joint, const Scene& scene)
+	{
+		const State &s1 = *bodyAt(scene, joint.id1)->state, &s2 = *bodyAt(scene, joint.id2)->state;
+		const Quaternionr toA = s1.ori.conjugate();
+		const vector<Vector3r> forces = joint.springForces();
+		std::vector<timber::SpringStep> steps;
+		for (size_t k = 0; k < joint.broken.size(); ++k) {
+			if (joint.broken[k]) continue;
+			const Vector3r end = toA * (s2.pos + s2.ori * joint.anchors2[k] - s1.pos),
+			               stretch = end - joint.anchors1[k], force = toA * forces[k];
+			steps.push_back({ k, joint.isStiff() ? joint.halfStretches[k] : stretch, stretch,
+			        joint.isStiff() ? Vector3r(Vector3r::Zero()) : force, joint.modes.rates(end), force });
+		}
+		timber::SpringSteps result(joint.springLaw(), std::move(steps), joint.storedEnergy, scene.dt);
+		if (!joint.isStiff()) result.account = result.startEnergy();
+		return result;
+	}
+
+	/// Stretches and forces of a stiff joint after the step, and its broken springs.
+	void storeSprings(const timber::SpringSteps& steps, const Quaternionr& ori, const ImplicitJoint& implicit,
+	        ImplicitJointResult& result)
+	{
+		TimberJoint& joint = *implicit.joint;
+		joint.stiffen();
+		for (const timber::SpringStep& s : steps.springs) {
+			joint.halfStretches[s.spring] = s.stretch;
+			joint.stretches[s.spring] = ori * s.placed;
+			joint.forces[s.spring] = ori * s.force;
+			if (!s.breaks) continue;
+			const auto cause = timber::breakCause(
+			        timber::springForce<double>(joint.stiffness(), s.stretch, joint.normal));
+			result.breaks.push_back({ implicit.index, { s.spring, cause, s.end.force.norm(), 0 } });
+		}
+	}
+
+	timber::JointForce totalForce(const timber::SpringSteps& steps, const Quaternionr& ori)
+	{
+		timber::JointForce total;
+		for (const timber::SpringStep& s : steps.springs) {
+			total.force += ori * s.force;
+			total.sum += s.force.norm();
+			total.largestSquared = math::max(total.largestSquared, Real(s.force.squaredNorm()));
+		}
+		return total;
+	}
+
+	/// Energies of a stiff joint after the step. A joint that the step resolves goes back to JointEngine, with the
+	/// energy of explicit springs at the half step.
+	void storeEnergies(const timber::ModalConstraint& c, const ImplicitJoint& implicit, ImplicitJointResult& result)
+	{
+		TimberJoint& joint = *implicit.joint;
+		const bool breaks = std::any_of(c.springs.springs.begin(), c.springs.springs.end(),
+		        [](const timber::SpringStep& s) { return s.breaks; });
+		(joint.yields() ? result.yielded : breaks ? result.released : result.dashpots) += c.springs.dissipated;
+		joint.storedEnergy = c.springs.account;
+		result.stored += joint.storedEnergy;
+		result.debt += math::max(Real(0), -joint.storedEnergy);
+		if (joint.modes.isStiff(c.h / timber::softPhase)) return;
+		const Real lost = c.springs.explicitDefect(c.h, c.after);
+		result.stored -= lost;
+		result.dashpots += lost;
+		joint.soften();
 	}
 }
 
-void findImplicitJoints(const Scene& scene, const std::vector<timber::SolverBody>& bodies, bool alsoStiff,
-        std::vector<TimberJoint*>& implicit, JointEnergies& energies)
+void ImplicitJointResult::add(const ImplicitJointResult& other)
 {
+	stored += other.stored;
+	dashpots += other.dashpots;
+	yielded += other.yielded;
+	released += other.released;
+	debt += other.debt;
+	breaks.insert(breaks.end(), other.breaks.begin(), other.breaks.end());
+}
+
+ImplicitJointResult findImplicitJoints(const Scene& scene, const std::vector<timber::SolverBody>& bodies,
+        bool alsoStiff, std::vector<ImplicitJoint>& implicit)
+{
+	ImplicitJointResult lost;
 	implicit.clear();
-	const JointEngine* engine = findEngine<JointEngine>(scene);
-	if (!engine) return;
-	for (const shared_ptr<TimberJoint>& joint : engine->joints)
-		if (isImplicit(*joint, scene, bodies, alsoStiff)) implicit.push_back(joint.get());
-		else {
-			const Real energy = joint->newmarkEnergy;
-			joint->setNewmark({});
-			(energy > 0 ? energies.dissipated : energies.created) += math::abs(energy);
-		}
+	JointEngine* engine = findEngine<JointEngine>(scene);
+	if (!engine) return lost;
+	for (size_t k = 0; k < engine->joints.size(); ++k) {
+		TimberJoint& joint = *engine->joints[k];
+		const bool may = (joint.isDamped() || alsoStiff) && hasModes(joint, scene, bodies);
+		const bool isStiff = may && alsoStiff && (joint.isStiff() || joint.modes.isStiff(scene.dt));
+		if (may && (isStiff || joint.isDamped()))
+			implicit.push_back({ &joint, k, isStiff, engine->lastForce(k).tangent });
+		if (isStiff && !joint.isStiff()) engine->handOver(k);
+		if (!isStiff && joint.isStiff()) release(joint, lost);
+	}
+	return lost;
 }
 
-void prepareJoint(timber::ContactSolver& solver, size_t k, TimberJoint& joint, const Scene& scene)
+Real dashpotPower(const Scene& scene, const std::vector<timber::SolverBody>& bodies)
 {
-	solver.prepareJoint(k, joint.modes, axesOf(scene, joint.id1), joint.dampingRatio, joint.newmark());
+	const JointEngine* engine = findEngine<JointEngine>(scene);
+	Real power = 0;
+	for (size_t k = 0; engine && k < engine->joints.size(); ++k) {
+		TimberJoint& joint = *engine->joints[k];
+		if (joint.isDamped() && hasModes(joint, scene, bodies))
+			power += timber::dashpotPower(bodies[joint.id1], bodies[joint.id2], joint.modes,
+			        axesOf(scene, joint.id1), joint.damping(engine->lastForce(k).tangent));
+	}
+	return power;
 }
 
-timber::PairForce storeJoint(
-        const timber::ContactSolver& solver, size_t k, const Scene& scene, TimberJoint& joint, JointEnergies& energies)
+void prepareJoint(timber::ContactSolver& solver, size_t k, const ImplicitJoint& implicit, const Scene& scene)
+{
+	TimberJoint& joint = *implicit.joint;
+	timber::SpringSteps springs;
+	if (implicit.isStiff) springs = springSteps(joint, scene);
+	const Real tangent = implicit.isStiff ? springs.tangent(joint.stiffness()) : implicit.tangent;
+	timber::ModalConstraint& c
+	        = solver.prepareJoint(k, joint.modes, axesOf(scene, joint.id1), joint.damping(tangent));
+	if (implicit.isStiff) timber::addSprings(c, std::move(springs));
+}
+
+timber::PairForce storeJoint(const timber::ContactSolver& solver, size_t k, const Scene& scene,
+        const ImplicitJoint& implicit, ImplicitJointResult& result)
 {
 	const timber::ModalConstraint& c = solver.joint(k);
 	const timber::JointImpulse P = timber::jointImpulse(c);
 	const Vector3r force = P.linear / scene.dt, torque = P.angular / scene.dt;
-	joint.setNewmark(c.history);
-	energies.stored += c.history.stored;
-	energies.dissipated += c.dissipated;
+	result.dashpots += c.dissipated;
+	if (implicit.isStiff) {
+		const Quaternionr& ori = bodyAt(scene, implicit.joint->id1)->state->ori;
+		storeSprings(c.springs, ori, implicit, result);
+		findEngine<JointEngine>(scene)->setForce(implicit.index, totalForce(c.springs, ori));
+		storeEnergies(c, implicit, result);
+	}
 	return { force, -c.armA.cross(force) - torque, c.armB.cross(force) + torque };
 }
 

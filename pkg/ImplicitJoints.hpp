@@ -6,25 +6,46 @@
 
 namespace yade {
 
-/// Energies of joints in a step. [J]
-struct JointEnergies {
-	Real stored = 0; ///< by Newmark's term
-	Real dissipated = 0;
-	Real created = 0; ///< debt of Newmark's term of joints that are no longer implicit
+/// A joint in the solver.
+struct ImplicitJoint {
+	TimberJoint* joint;
+	size_t index; ///< in the engine
+	bool isStiff; ///< its springs are in the solver
+	Real tangent; ///< stiffness of its explicit springs over the initial one [-]
 };
 
-/// Unbroken joints with a damping ratio, and on request joints too stiff for explicit springs, between bodies of which
+/// A spring that breaks in the solver.
+struct ImplicitBreak {
+	size_t joint; ///< index in the engine
+	timber::SpringBreak spring;
+};
+
+/// What joints of the solver do in a step.
+struct ImplicitJointResult {
+	Real stored = 0; ///< by stiff joints [J]
+	Real dashpots = 0; ///< dissipated by dashpots, and by stiff joints without a cause of the law [J]
+	Real yielded = 0, released = 0; ///< dissipated by springs that yield, and with springs that break [J]
+	Real debt = 0; ///< energy that stiff joints have returned beyond what they had stored [J]
+	std::vector<ImplicitBreak> breaks;
+
+	void add(const ImplicitJointResult&);
+};
+
+/// Unbroken joints with dashpots, and on request joints too stiff for explicit springs, between bodies of which
 /// at least one is free.
-/// bodies: by id, those of the scene; implicit: out, in the order of the joints; energies: those of Newmark's term of
-/// the others are added to.
-void findImplicitJoints(const Scene&, const std::vector<timber::SolverBody>& bodies, bool alsoStiff,
-        std::vector<TimberJoint*>& implicit, JointEnergies& energies);
+/// bodies: by id, those of the scene; implicit: out, in the order of the joints. Returns the energies of joints that
+/// are stiff no more.
+ImplicitJointResult findImplicitJoints(const Scene&, const std::vector<timber::SolverBody>& bodies, bool alsoStiff,
+        std::vector<ImplicitJoint>& implicit);
 
 /// Constraint of a joint, the k-th of the solver.
-void prepareJoint(timber::ContactSolver&, size_t k, TimberJoint&, const Scene&);
+void prepareJoint(timber::ContactSolver&, size_t k, const ImplicitJoint&, const Scene&);
 
-/// Force of the modes of the solver's k-th joint. energies: added to.
+/// Power that the dashpots of all joints take from bodies at these velocities, as in the last step. bodies: by id [W]
+Real dashpotPower(const Scene&, const std::vector<timber::SolverBody>& bodies);
+
+/// Force of the solver's k-th joint. result: added to.
 timber::PairForce storeJoint(
-        const timber::ContactSolver&, size_t k, const Scene&, TimberJoint&, JointEnergies& energies);
+        const timber::ContactSolver&, size_t k, const Scene&, const ImplicitJoint&, ImplicitJointResult& result);
 
 } // namespace yade

@@ -8,6 +8,36 @@ namespace yade {
 
 YADE_PLUGIN((SymplecticIntegrator));
 
+SteppedBody::SteppedBody(const Body* b)
+        : position(b ? b->state->pos : Vector3r(Vector3r::Zero()))
+        , orientation(b ? b->state->ori : Quaternionr(Quaternionr::Identity()))
+        , born(b ? b->iterBorn : -1)
+        , mask(b ? int(b->groupMask) : 0)
+        , blockedDOFs(b ? int(b->state->blockedDOFs) : 0)
+{
+}
+
+bool SteppedBody::isStill(const Body& b) const
+{
+	const State& s = *b.state;
+	return born >= 0 && born == b.iterBorn && position == s.pos && orientation.coeffs() == s.ori.coeffs()
+	        && mask == int(b.groupMask) && blockedDOFs == int(s.blockedDOFs);
+}
+
+bool wasPlaced(const Scene& scene, const Body& b)
+{
+	const auto* integrator = findEngine<SymplecticIntegrator>(scene);
+	if (!integrator || integrator->stepped.empty()) return scene.iter == 0 || b.iterBorn >= scene.iter;
+	const size_t id = b.getId();
+	return id >= integrator->stepped.size() || !integrator->stepped[id].isStill(b);
+}
+
+void markPlaced(const Scene& scene, Body::id_t id)
+{
+	auto* integrator = findEngine<SymplecticIntegrator>(scene);
+	if (integrator && id >= 0 && size_t(id) < integrator->stepped.size()) integrator->stepped[id].born = -1;
+}
+
 /// Kick and drift of a free body: velocity, angular momentum and position at the end of the step.
 void SymplecticIntegrator::kickAndDrift(Body::id_t id, State& s) const
 {
@@ -45,7 +75,7 @@ template <class Number> void SymplecticIntegrator::rotate(State* const* states, 
 }
 
 /// Motion of the bodies from the given id on, as many as there are lanes.
-void SymplecticIntegrator::moveGroup(Body::id_t first) const
+void SymplecticIntegrator::moveGroup(Body::id_t first)
 {
 	State* free[timber::laneCount];
 	size_t count = 0;
@@ -62,11 +92,14 @@ void SymplecticIntegrator::moveGroup(Body::id_t first) const
 	}
 	if (count == 1) rotate<double>(free, count);
 	if (count > 1) rotate<timber::Lanes>(free, count);
+	for (Body::id_t id = first; id < end; ++id)
+		stepped[id] = SteppedBody((*scene->bodies)[id].get());
 }
 
 void SymplecticIntegrator::action()
 {
 	syncForces(*scene);
+	stepped.resize(scene->bodies->size());
 	const int groups = int(timber::groupsOf(scene->bodies->size()));
 	timber::forAll(
 	        groups, [this](int group) { moveGroup(group * timber::laneCount); }, timber::laneCount);

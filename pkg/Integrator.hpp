@@ -5,22 +5,51 @@
 
 namespace yade {
 
+/// A body as the integrator left it at the end of a step.
+struct SteppedBody {
+	Vector3r position; ///< [m]
+	Quaternionr orientation;
+	long born; ///< step in which the body was appended; -1: there is no body, or its contacts begin anew
+	int mask; ///< of its group
+	int blockedDOFs;
+
+	SteppedBody() = default;
+	explicit SteppedBody(const Body* b);
+	/// Whether a body is the same, in the same pose and group, and neither fixed nor freed since.
+	bool isStill(const Body&) const;
+	template <class Archive> void serialize(Archive& ar, const unsigned int)
+	{
+		ar& BOOST_SERIALIZATION_NVP(position) & BOOST_SERIALIZATION_NVP(orientation)
+		        & BOOST_SERIALIZATION_NVP(born) & BOOST_SERIALIZATION_NVP(mask)
+		        & BOOST_SERIALIZATION_NVP(blockedDOFs);
+	}
+};
+
+/// Whether a body was appended, replaced, given another pose, fixed or freed since the last step of its scene: what it
+/// overlaps was not reached by motion. In the first step of an integrator all bodies of a new scene were placed, in a
+/// scene that runs only those that were appended.
+bool wasPlaced(const Scene&, const Body&);
+
+/// Contacts of a body that begin in the next step are those of a body that was placed.
+void markPlaced(const Scene&, Body::id_t);
+
 class SymplecticIntegrator : public GlobalEngine {
 	void kickAndDrift(Body::id_t, State&) const;
 	void moveFixed(State&) const;
 	template <class Number> void rotate(State* const* states, size_t count) const;
-	void moveGroup(Body::id_t first) const;
+	void moveGroup(Body::id_t first);
 
 public:
 	void action() override;
 	// clang-format off
-	YADE_CLASS_BASE_DOC(SymplecticIntegrator, GlobalEngine,
+	YADE_CLASS_BASE_DOC_ATTRS(SymplecticIntegrator, GlobalEngine,
 		"Leapfrog for rigid bodies: positions at full, velocities and angular momenta at half steps. The free "
 		"rotation within a step is composed of exact rotations about the principal axes "
 		"(Dullweber, Leimkuhler and McLachlan 1997): second order, time-reversible, symplectic, with exact "
 		"conservation of angular momentum. It replaces NewtonIntegrator, whose energy grows in free rotation. "
 		"No numerical damping. A body with all degrees of freedom blocked moves with its prescribed velocity "
-		"and angular velocity.");
+		"and angular velocity.",
+		((vector<SteppedBody>, stepped, , Attr::hidden, "The bodies at the end of the last step, by id. [-]")));
 	// clang-format on
 };
 REGISTER_SERIALIZABLE(SymplecticIntegrator);

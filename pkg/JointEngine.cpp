@@ -29,6 +29,31 @@ namespace {
 				if (!j->broken[k]) visit(*j, k, forces[k], *b1->state, *b2->state);
 		}
 	}
+
+	constexpr Real samePoint = 1e-4; ///< distance below which two anchors are the same [m]
+
+	bool haveSameAnchors(const vector<Vector3r>& a, const vector<Vector3r>& b)
+	{
+		return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+		        [](const Vector3r& x, const Vector3r& y) { return (x - y).norm() < samePoint; });
+	}
+
+	bool haveSameBodies(const TimberJoint& a, const TimberJoint& b)
+	{
+		if (a.id1 == b.id1 && a.id2 == b.id2)
+			return haveSameAnchors(a.anchors1, b.anchors1) && haveSameAnchors(a.anchors2, b.anchors2);
+		return a.id1 == b.id2 && a.id2 == b.id1 && haveSameAnchors(a.anchors1, b.anchors2)
+		        && haveSameAnchors(a.anchors2, b.anchors1);
+	}
+
+	bool haveSameLaw(const TimberJoint& a, const TimberJoint& b)
+	{
+		return a.kn == b.kn && a.ks == b.ks && a.strength == b.strength && a.perJoint == b.perJoint
+		        && a.law == b.law && a.dampingRatio == b.dampingRatio
+		        && (!a.yields()
+		                || (a.softeningStretch == b.softeningStretch && a.ultimateStretch == b.ultimateStretch
+		                        && a.frictionShare == b.frictionShare));
+	}
 }
 
 int JointEngine::append(const shared_ptr<TimberJoint>& joint)
@@ -39,6 +64,19 @@ int JointEngine::append(const shared_ptr<TimberJoint>& joint)
 	joint->validate();
 	joints.push_back(joint);
 	return int(joints.size()) - 1;
+}
+
+bool JointEngine::hasSame(const TimberJoint& joint) const
+{
+	return std::any_of(joints.begin(), joints.end(), [&](const shared_ptr<TimberJoint>& other) {
+		return !other->isBroken() && haveSameLaw(joint, *other) && haveSameBodies(joint, *other);
+	});
+}
+
+void JointEngine::breakJointsOf(Body::id_t id)
+{
+	for (const shared_ptr<TimberJoint>& joint : joints)
+		if (joint->id1 == id || joint->id2 == id) joint->breakAll();
 }
 
 boost::python::list JointEngine::pyJoints() const { return listOf(joints); }
@@ -72,7 +110,11 @@ void JointEngine::breakReplaced()
 
 void JointEngine::checkJoints() const
 {
-	std::set<const TimberJoint*> visited;
+	std::set<const TimberJoint*> visited, ofOthers;
+	for (const shared_ptr<Engine>& e : scene->engines)
+		if (const auto* other = dynamic_cast<const JointEngine*>(e.get()); other && other != this)
+			for (const shared_ptr<TimberJoint>& joint : other->joints)
+				ofOthers.insert(joint.get());
 	const auto refuse = [](size_t k, const string& fault) {
 		throw std::runtime_error("JointEngine.joints[" + std::to_string(k) + "]: " + fault);
 	};
@@ -80,6 +122,7 @@ void JointEngine::checkJoints() const
 	for (size_t k = 0; k < joints.size(); ++k) {
 		const TimberJoint& joint = *joints[k];
 		if (!visited.insert(&joint).second) refuse(k, "the same joint is in the list before");
+		if (ofOthers.count(&joint)) refuse(k, "the same joint is in another JointEngine of O.engines");
 		if (!isId(joint.id1) || !isId(joint.id2) || joint.id1 == joint.id2)
 			refuse(k,
 			        "id1 = " + std::to_string(joint.id1) + ", id2 = " + std::to_string(joint.id2)
@@ -103,22 +146,44 @@ void JointEngine::computeForce(size_t index)
 	const timber::PackedJoint& joint = packed->joints[index];
 	timber::JointForce& total = jointForces[index];
 	if (joint.isActive && !(hasBody(joint.bodyA) && hasBody(joint.bodyB))) joints[index]->breakAll();
-	if (!joint.isActive) total = {};
-	else if (joint.yields) {
-		TimberJoint& j = *joints[index];
-		total = timber::slipForces(j.slipLaw(), placement(joint), j.slipAxis(), j.springs(), j.slipHistories());
-	} else
+	if (!joint.isActive || joint.isStiff) total = {};
+	else if (joint.yields) yield(index);
+	else
 		timber::springForces(joint.stiffness, placement(joint), joint.normal, packed->first(joint),
 		        packed->end(joint), total);
+}
+
+/// Forces of a joint that yields. Its energies differ from the work of the forces before and after the last motion
+/// where the law is not linear.
+void JointEngine::yield(size_t index)
+{
+	const timber::PackedJoint& joint = packed->joints[index];
+	TimberJoint& j = *joints[index];
+	const timber::JointForce before = jointForces[index];
+	timber::JointForce& total = jointForces[index];
+	total = j.isOfWall()
+	        ? timber::wallForces(j.wallLaw(), placement(joint), j.normal, j.springs(), j.wallHistories)
+	        : timber::slipForces(j.slipLaw(), placement(joint), j.slipAxis(), j.springs(), j.slipHistories());
+	if (!before.isKnown) return;
+	const timber::BodyKinematics a = kinematics(*bodyAt(*scene, joint.bodyA)->state),
+	                             b = kinematics(*bodyAt(*scene, joint.bodyB)->state);
+	errors[index] = total.energy + total.dissipated - before.energy
+	        + scene->dt / 2 * (before.power(a, b) + total.power(a, b));
 }
 
 void JointEngine::computeForces()
 {
 	jointForces.resize(joints.size());
+	errors.assign(joints.size(), 0);
 	timber::forAll(int(joints.size()), [this](int k) { computeForce(k); });
 }
 
-/// Breaks a spring and logs it.
+void JointEngine::handOver(size_t joint)
+{
+	elastic -= lastForce(joint).energy;
+	setForce(joint, {});
+}
+
 void JointEngine::breakSpring(size_t joint, const timber::SpringBreak& event)
 {
 	static const char* const names[] = { "tension", "compression", "shear" };
@@ -149,8 +214,11 @@ void JointEngine::breakSprings(size_t index)
 void JointEngine::breakYielded(size_t index)
 {
 	TimberJoint& joint = *joints[index];
-	for (const timber::SpringBreak& event : timber::slipBreaks(joint.slipLaw(), placement(packed->joints[index]),
-	             joint.normal, joint.springs(), joint.slipHistories()))
+	const std::vector<timber::SpringBreak> events = joint.isOfWall()
+	        ? timber::wallBreaks(joint.wallLaw(), joint.springs(), joint.wallHistories)
+	        : timber::slipBreaks(joint.slipLaw(), placement(packed->joints[index]), joint.normal, joint.springs(),
+	                joint.slipHistories());
+	for (const timber::SpringBreak& event : events)
 		breakSpring(index, event);
 }
 
@@ -161,11 +229,12 @@ void JointEngine::breakAndSum()
 	sums.clear(bodies.size());
 	for (size_t k = 0; k < joints.size(); ++k) {
 		const timber::PackedJoint& joint = packed->joints[k];
-		if (!joint.isActive) continue;
+		if (!joint.isActive || joint.isStiff) continue;
 		if (joint.yields) breakYielded(k);
 		else if (timber::isOverloaded(joint.strength, jointForces[k])) breakSprings(k);
 		const timber::JointForce& total = jointForces[k];
 		yielded += total.dissipated;
+		created += errors[k];
 		if (total.energy == 0) continue; // all springs broken or unstretched
 		elastic += total.energy;
 		sums.add(joint.bodyA, total.force, total.torqueA);
@@ -178,6 +247,7 @@ Real JointEngine::elasticPower(const Scene& current) const
 	Real power = 0;
 	visitSprings(joints, current,
 	        [&](const TimberJoint& j, size_t k, const Vector3r& force, const State& s1, const State& s2) {
+		        if (j.isStiff()) return;
 		        const Vector3r end = s2.pos + s2.ori * j.anchors2[k];
 		        power += force.dot(timber::relativeVelocity<double>(
 		                end - s1.pos, end - s2.pos, s1.vel, s1.angVel, s2.vel, s2.angVel));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Owner of the joints' springs: their forces, breaks and energies. Brittle springs and the rule of breaking:
 /// kernel/joint_law.hpp. Yielding springs:
-/// kernel/slip_law.hpp.
+/// kernel/slip_law.hpp, kernel/wall_springs.hpp.
 #pragma once
 #include <TimberJoint.hpp>
 #include <bodies.hpp>
@@ -34,6 +34,7 @@ class JointEngine : public GlobalEngine {
 	std::vector<Placement> bodies; ///< by id
 	shared_ptr<timber::PackedJoints> packed { new timber::PackedJoints };
 	std::vector<timber::JointForce> jointForces; ///< of the joints' unbroken springs in this step
+	std::vector<Real> errors; ///< of the joints that yield, in this step, see `created` [J]
 	BodyForces sums; ///< of the joints
 
 	bool hasBody(Body::id_t) const;
@@ -47,19 +48,31 @@ class JointEngine : public GlobalEngine {
 		return { a.axes, b.axes, b.position - a.position };
 	}
 	void computeForce(size_t joint);
+	void yield(size_t joint);
 	void computeForces();
 	void breakSprings(size_t joint);
 	void breakYielded(size_t joint);
-	void breakSpring(size_t joint, const timber::SpringBreak&);
 	void breakAndSum();
 
 public:
 	void action() override;
 	/// Whether no joint was added or changed since the last step.
 	bool areJointsCurrent() const { return packed->isCurrent && packed->joints.size() == joints.size(); }
+	/// Forces of the joints' springs on the bodies in the last step.
+	const BodyForces& forces() const { return sums; }
 	int append(const shared_ptr<TimberJoint>&);
+	/// Whether an unbroken joint with the same springs between the same bodies is there.
+	bool hasSame(const TimberJoint&) const;
+	/// Breaks the joints of a body that is erased: another one may get its id.
+	void breakJointsOf(Body::id_t);
 	boost::python::list pyJoints() const;
 	boost::python::list pyBreaks() const;
+	/// Breaks a spring and logs it.
+	void breakSpring(size_t joint, const timber::SpringBreak&);
+	/// The contact solver takes over a joint, the forces of which act in this step already.
+	void handOver(size_t joint);
+	/// Sets the forces of a joint that the contact solver has moved. Thread-safe for different joints.
+	void setForce(size_t joint, const timber::JointForce& force) { jointForces[joint] = force; }
 	/// Forces of a joint's unbroken springs in the last step; zero before the first one.
 	timber::JointForce lastForce(size_t joint) const
 	{
@@ -81,10 +94,14 @@ public:
 		((Real, released, 0, , "Energy stored in springs when they broke, without those that were set to broken "
 			"or lost a body. [J]"))
 		((Real, elastic, 0, , "Elastic energy of the springs at the placement of the last step. [J]"))
-		((Real, yielded, 0, , "Energy dissipated by yielding springs. [J]")),
+		((Real, yielded, 0, , "Energy dissipated by yielding springs. [J]"))
+		((Real, created, 0, , "Energy that yielding springs have stored and dissipated beyond the work of the "
+			"bodies on them: error of the steps that resolve them. [J]")),
 		,
 		.def("append", &JointEngine::append, (boost::python::arg("joint")), "Adds a joint and returns its "
 			"index. [-]")
+		.def("hasSame", &JointEngine::hasSame, (boost::python::arg("joint")), "Whether an unbroken joint with "
+			"the same springs is there.")
 		.add_property("joints", &JointEngine::pyJoints, "List of all joints. [-]")
 		.add_property("breaks", &JointEngine::pyBreaks, "List of the springs that broke, in order, "
 			"without those that were set to broken or lost a body. [-]")

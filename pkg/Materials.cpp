@@ -17,6 +17,7 @@ void TimberMat::validate() const
 {
 	require(young >= 1e5 && young <= 1e15, "TimberMat.young", young, "from 1e5 to 1e15 Pa (timber: about 1e10)");
 	require(poisson > -1 && poisson <= 0.5, "TimberMat.poisson", poisson, "in (-1, 0.5]");
+	require(bearing >= 1e3, "TimberMat.bearing", bearing, ">= 1000 Pa, or infinite");
 }
 
 void SnowMat::validate() const

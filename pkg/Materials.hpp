@@ -31,7 +31,10 @@ public:
 		"(paper, section 3.1).",
 		((Real, young, 90e3 * 9.8e4, Attr::triggerPostLoad, "Young's modulus: 90e3 kgf/cm2, with the paper's "
 			"9.8 N per kgf. [Pa] (paper, section 3.1)"))
-		((Real, poisson, 0.4, Attr::triggerPostLoad, "Poisson's ratio. [-] (paper, section 3.1)")),
+		((Real, poisson, 0.4, Attr::triggerPostLoad, "Poisson's ratio. [-] (paper, section 3.1)"))
+		((Real, bearing, std::numeric_limits<Real>::infinity(), Attr::triggerPostLoad, "Bearing strength, at "
+			"which contacts yield: about 6e6 for softwood across the grain; infinite: elastic, as in the "
+			"paper. [Pa]")),
 		createIndex(); density = 340;
 	);
 	// clang-format on

@@ -90,4 +90,20 @@ boost::python::tuple packedSprings()
 	return boost::python::make_tuple(bytes(pairs), bytes(values));
 }
 
+Real pyDashpotPower(const boost::python::object& velocities)
+{
+	const Scene& scene = *Omega::instance().getScene();
+	std::vector<timber::SolverBody> bodies = ContactForces::placements(scene);
+	const string values = boost::python::extract<string>(velocities);
+	if (values.size() != 6 * sizeof(double) * bodies.size())
+		throw std::invalid_argument("dashpot_power: velocities: six numbers for each body");
+	std::vector<double> v(6 * bodies.size());
+	std::memcpy(v.data(), values.data(), values.size());
+	for (size_t id = 0; id < bodies.size(); ++id) {
+		bodies[id].velocity = Eigen::Map<const Vector3r>(&v[6 * id]);
+		bodies[id].spin = Eigen::Map<const Vector3r>(&v[6 * id + 3]);
+	}
+	return ContactForces::dashpotPower(scene, bodies);
+}
+
 } // namespace yade

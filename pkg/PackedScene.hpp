@@ -23,4 +23,8 @@ boost::python::tuple packedContacts();
 /// [N]; world frame.
 boost::python::tuple packedSprings();
 
+/// Power that the dashpots of all contact points and joints take from the bodies at these velocities and spins, with
+/// contacts that neither slide nor open. velocities: float64 (bodies, 6), world frame [m/s, rad/s] [W]
+Real pyDashpotPower(const boost::python::object& velocities);
+
 } // namespace yade

@@ -18,9 +18,14 @@ void RestSkipper::validate() const
 	requireNonNegative("RestSkipper.groundThreshold", groundThreshold);
 }
 
+namespace {
+	/// In place of the position of a body that was erased.
+	const Vector3r noPosition = Vector3r::Constant(std::numeric_limits<Real>::max());
+}
+
 vector<Vector3r> RestSkipper::positions() const
 {
-	vector<Vector3r> centres(scene->bodies->size(), Vector3r::Zero());
+	vector<Vector3r> centres(scene->bodies->size(), noPosition);
 	for (const shared_ptr<Body>& b : *scene->bodies)
 		if (b) centres[b->getId()] = b->state->pos;
 	return centres;
@@ -37,8 +42,11 @@ Real RestSkipper::largestSpeed() const
 Real RestSkipper::largestDisplacement(const vector<Vector3r>& from) const
 {
 	Real largest = 0;
-	for (const shared_ptr<Body>& b : *scene->bodies)
-		if (b) largest = math::max(largest, (b->state->pos - from[b->getId()]).norm());
+	for (size_t id = 0; id < from.size(); ++id) {
+		const Body* b = bodyAt(*scene, Body::id_t(id));
+		if (bool(b) == (from[id] == noPosition)) return std::numeric_limits<Real>::infinity();
+		if (b) largest = math::max(largest, (b->state->pos - from[id]).norm());
+	}
 	return largest;
 }
 

@@ -8,6 +8,7 @@ namespace yade {
 class RestSkipper : public GlobalEngine {
 	vector<Vector3r> positions() const;
 	Real largestSpeed() const;
+	/// Infinite after a body was erased, or appended in the place of one.
 	Real largestDisplacement(const vector<Vector3r>& from) const;
 	long stridesPerHalf() const;
 	void restart();

@@ -16,7 +16,7 @@ void checkEngines(const Scene&);
 /// Each pair of shapes, materials and contact laws that can occur has a functor. Throws std::runtime_error.
 void checkContacts(const Scene&);
 
-/// The scene's time step is finite and not too large for contacts and joints. Throws std::runtime_error.
+/// The scene's time step is finite and not too large for contacts under gravity and for joints. Throws std::runtime_error.
 void checkStep(const Scene&);
 
 /// Addresses of the live engines, also of those inside others, of the dispatchers of loop and collider, and of their

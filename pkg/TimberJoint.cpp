@@ -37,6 +37,7 @@ void TimberJoint::validate() const
 	if (hasSprings || !std::isnan(ks)) requireNonNegative("TimberJoint.ks", ks);
 	requireGiven(hasSprings, "TimberJoint.strength", strength, true);
 	require(dampingRatio >= 0 && dampingRatio <= 1, "TimberJoint.dampingRatio", dampingRatio, "between 0 and 1");
+	requireNonNegative("TimberJoint.dampingTime", dampingTime);
 	require(math::abs(normal.squaredNorm() - 1) < 1e-9, "TimberJoint.normal", normal.transpose(), "of length 1");
 	requireAnchors("TimberJoint.anchors1", anchors1);
 	requireAnchors("TimberJoint.anchors2", anchors2);
@@ -50,17 +51,30 @@ void TimberJoint::validate() const
 
 void TimberJoint::validateLaw() const
 {
-	require(law == "brittle" || yields(), "TimberJoint.law", law, "brittle or slip");
+	require(law == "brittle" || yields(), "TimberJoint.law", law, "brittle, slip or wall");
 	require(frictionShare >= 0 && frictionShare <= 1, "TimberJoint.frictionShare", frictionShare, "in [0, 1]");
 	require(softeningStretch > 0, "TimberJoint.softeningStretch", softeningStretch, "> 0");
 	require(ultimateStretch > 0, "TimberJoint.ultimateStretch", ultimateStretch, "> 0");
 	if (!yields() || std::isnan(kn)) return;
+	if (isWall) return validateWall();
 	require(kn == ks || ks == 0, "TimberJoint.ks", ks, "equal to kn, or 0, with the law slip");
 	if (!envelope.empty()) return validateEnvelope();
 	require(softeningStretch > strength / kn && std::isfinite(softeningStretch), "TimberJoint.softeningStretch",
 	        softeningStretch, "finite and > strength / kn with the law slip");
 	require(ultimateStretch > softeningStretch && std::isfinite(ultimateStretch), "TimberJoint.ultimateStretch",
 	        ultimateStretch, "finite and > softeningStretch with the law slip");
+}
+
+void TimberJoint::validateWall() const
+{
+	require(ks == 0, "TimberJoint.ks", ks, "0 with the law wall, which acts along the normal only");
+	requireNonNegative("TimberJoint.reloadStiffness", reloadStiffness);
+	const bool reloadsFrom = reloadStiffness == 0;
+	require(reloadsFrom || (reloadStretch > 0 && std::isfinite(reloadStretch)), "TimberJoint.reloadStretch",
+	        reloadStretch, "finite and > 0 with reloadStiffness");
+	require(reloadsFrom || (reloadPower > 0 && std::isfinite(reloadPower)), "TimberJoint.reloadPower", reloadPower,
+	        "finite and > 0 with reloadStiffness");
+	validateEnvelope();
 }
 
 void TimberJoint::validateEnvelope() const
@@ -71,7 +85,8 @@ void TimberJoint::validateEnvelope() const
 		points << (largest > 0 ? ", " : "") << point.x() << " " << point.y();
 		largest = math::max(largest, point.y());
 	}
-	const char* const unmet = timber::SlipLaw::unmetBy(kn, envelopePoints(1));
+	const char* const unmet = isWall ? timber::WallLaw::unmetBy(wallCycles(1), envelopePoints(1))
+	                                 : timber::SlipLaw::unmetBy(kn, envelopePoints(1));
 	require(!unmet, "TimberJoint.envelope", points.str(), unmet ? unmet : "");
 	require(math::abs(strength - largest) <= 1e-9 * largest, "TimberJoint.strength", strength,
 	        "the largest force of TimberJoint.envelope");
@@ -85,6 +100,7 @@ void TimberJoint::postLoad(TimberJoint&)
 	if (isRead) modes.state.springs = 0; // computed for other attributes
 	isRead = true;
 	isSlip = law == "slip";
+	isWall = law == "wall";
 	validate();
 	const bool hasSprings = !anchors1.empty() && !anchors2.empty();
 	if (hasSprings) broken.resize(anchors1.size(), 0);
@@ -94,7 +110,12 @@ void TimberJoint::postLoad(TimberJoint&)
 	mean2 = mean(anchors2);
 	forces.resize(anchors1.size(), Vector3r::Zero());
 	stretches.resize(anchors1.size(), Vector3r::Zero());
-	if (yields()) {
+	if (isStiff()) halfStretches.resize(anchors1.size(), Vector3r::Zero());
+	if (isWall) {
+		wall = { wallCycles(share()), backbone() };
+		wallHistories.resize(anchors1.size());
+	}
+	if (isSlip) {
 		slip = { stiffness().normal, frictionShare, backbone() };
 		plasticStretches.resize(anchors1.size(), Vector3r::Zero());
 		largestStretches.resize(anchors1.size(), 0);
@@ -112,11 +133,27 @@ void TimberJoint::breakSpring(size_t spring)
 	if (packed) packed->set(index, changed);
 }
 
-void TimberJoint::setNewmark(const timber::NewmarkHistory& history)
+std::unique_ptr<timber::SpringLaw> TimberJoint::springLaw()
 {
-	newmarkEnergy = history.stored;
-	newmarkLinear = history.linear;
-	newmarkAngular = history.angular;
+	if (isWall) return std::make_unique<timber::WallSprings>(wall, normal, wallHistories);
+	if (isSlip) return std::make_unique<timber::SlipSprings>(slip, slipAxis(), slipHistories());
+	return std::make_unique<timber::BrittleSprings>(stiffness(), jointStrength(), normal);
+}
+
+void TimberJoint::stiffen()
+{
+	storeSprings();
+	halfStretches.resize(anchors1.size(), Vector3r::Zero());
+	if (packed) packed->joints[index].isStiff = true;
+}
+
+void TimberJoint::soften()
+{
+	halfStretches.clear();
+	storedEnergy = 0;
+	if (!packed) return;
+	packed->set(index, { anchors1, anchors2, broken, stretches, forces });
+	packed->joints[index].isStiff = false;
 }
 
 void TimberJoint::breakAll()
@@ -130,20 +167,19 @@ void TimberJoint::pack(const shared_ptr<timber::PackedJoints>& to)
 	const timber::JointSprings unpacked = springs();
 	packed = to;
 	index = packed->joints.size();
-	packed->add({ id1, id2, yields(), stiffness(), jointStrength(), normal }, unpacked);
+	packed->add({ id1, id2, yields(), isStiff(), stiffness(), jointStrength(), normal }, unpacked);
 }
 
 TimberJoint::SpringVectors TimberJoint::lastSprings() const
 {
 	SpringVectors last { stretches, forces };
-	if (packed && !yields())
-		timber::unpackSprings(packed->first(packed->joints[index]), last.stretches, last.forces);
+	if (isPacked()) timber::unpackSprings(packed->first(packed->joints[index]), last.stretches, last.forces);
 	return last;
 }
 
 void TimberJoint::storeSprings()
 {
-	if (packed && !yields()) timber::unpackSprings(packed->first(packed->joints[index]), stretches, forces);
+	if (isPacked()) timber::unpackSprings(packed->first(packed->joints[index]), stretches, forces);
 }
 
 timber::JointSprings TimberJoint::springs()
@@ -158,6 +194,12 @@ std::vector<timber::BackbonePoint> TimberJoint::envelopePoints(Real share) const
 	for (const Vector2r& point : envelope)
 		points.push_back({ point.x(), share * point.y() });
 	return points;
+}
+
+timber::WallCycles TimberJoint::wallCycles(Real share) const
+{
+	return { share * kn, share * frictionForce, share * pinchedStiffness, reloadTarget, reloadShare,
+		share * reloadStiffness, reloadStretch, reloadPower };
 }
 
 std::vector<timber::BackbonePoint> TimberJoint::backbone() const
@@ -191,6 +233,20 @@ boost::python::list TimberJoint::pySprings() const
 		one["force"] = Vector3r(pulling[k]);
 		one["stretch"] = stretched[k].norm();
 		one["broken"] = bool(broken[k]);
+		rows.append(one);
+	}
+	return rows;
+}
+
+boost::python::list TimberJoint::pyWallHistories() const
+{
+	boost::python::list rows;
+	for (const timber::WallHistory& history : wallHistories) {
+		boost::python::dict one;
+		one["stretch"] = history.stretch;
+		one["force"] = history.force;
+		one["largest"] = boost::python::make_tuple(history.largest[0], history.largest[1]);
+		one["reversed"] = boost::python::make_tuple(history.reversed[0], history.reversed[1]);
 		rows.append(one);
 	}
 	return rows;

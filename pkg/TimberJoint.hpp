@@ -5,6 +5,7 @@
 #include <kernel/joint_modes.hpp>
 #include <kernel/packed_joints.hpp>
 #include <kernel/slip_law.hpp>
+#include <kernel/wall_springs.hpp>
 #include <pch.hpp>
 
 namespace boost {
@@ -12,11 +13,17 @@ namespace serialization {
 	template <class Archive> void serialize(Archive& ar, timber::JointModes& m, const unsigned int)
 	{
 		ar& make_nvp("centre", m.centre) & make_nvp("modes", m.modes) & make_nvp("frequencies", m.frequencies);
+		ar& make_nvp("twists", m.twists);
 		ar& make_nvp("springs", m.state.springs) & make_nvp("normal", m.state.stiffness.normal)
 		        & make_nvp("shear", m.state.stiffness.shear);
 		ar& make_nvp("pairInverseMass", m.state.pairInverseMass)
 		        & make_nvp("inverseInertia", m.state.inverseInertia);
 		ar& make_nvp("relative", m.state.relative);
+	}
+	template <class Archive> void serialize(Archive& ar, timber::WallHistory& h, const unsigned int)
+	{
+		ar& make_nvp("stretch", h.stretch) & make_nvp("force", h.force) & make_nvp("largest", h.largest)
+		        & make_nvp("reversed", h.reversed);
 	}
 }
 }
@@ -26,7 +33,9 @@ namespace yade {
 class TimberJoint : public Serializable {
 	bool isRead = false; ///< attributes were read or set: those set later decide about the modes
 	bool isSlip = false; ///< law == "slip": a comparison of strings for each joint and step takes 2 % of a step
+	bool isWall = false; ///< law == "wall"
 	timber::SlipLaw slip; ///< of a spring, from the attributes
+	timber::WallLaw wall; ///< likewise
 	/// Of the engine: they have the springs' stretches and forces of the last step. Null: the attributes have them,
 	/// and may have been changed.
 	shared_ptr<timber::PackedJoints> packed;
@@ -37,6 +46,8 @@ class TimberJoint : public Serializable {
 	struct SpringVectors {
 		vector<Vector3r> stretches, forces;
 	};
+	/// Whether `packed` has stretches and forces.
+	bool isPacked() const { return packed && !yields() && !isStiff(); }
 	/// In the last step.
 	SpringVectors lastSprings() const;
 	/// Sets the attributes to those of the last step.
@@ -49,6 +60,7 @@ public:
 	void postLoad(TimberJoint&);
 	void validate() const;
 	void validateLaw() const;
+	void validateWall() const;
 	void validateEnvelope() const;
 	/// Stiffness of a spring; perJoint: its share of the joint's stiffness.
 	timber::JointStiffness stiffness() const { return { share() * kn, share() * ks }; }
@@ -57,6 +69,12 @@ public:
 	const Vector3r& centre2() const { return mean2; }
 	size_t intactSprings() const { return intact; }
 	bool isBroken() const { return intact == 0; }
+	bool isDamped() const { return dampingRatio > 0 || dampingTime > 0; }
+	/// Dashpots at a tangent stiffness of the unbroken springs over their initial one. [-]
+	timber::JointDamping damping(Real tangent) const
+	{
+		return { dampingRatio, dampingTime, initialDamping ? 1 : tangent };
+	}
 	/// Largest spring force over the strength; perJoint: sum of the spring forces over the strength. [-]
 	Real load() const;
 	/// Of a joint with these forces.
@@ -71,7 +89,8 @@ public:
 	/// With the stretches and forces of the last step. For the thread that computes the steps: others must not
 	/// write them.
 	timber::JointSprings springs();
-	bool yields() const { return isSlip; }
+	bool yields() const { return isSlip || isWall; }
+	bool isOfWall() const { return isWall; }
 	/// Points of the envelope, with a share of its forces.
 	std::vector<timber::BackbonePoint> envelopePoints(Real share) const;
 	/// Backbone of a spring that yields; perJoint: with its share of the joint's strength.
@@ -80,12 +99,23 @@ public:
 	const timber::SlipLaw& slipLaw() const { return slip; }
 	/// Axis of springs that yield along the normal only (ks = 0), else zero. [-]
 	Vector3r slipAxis() const { return ks == 0 ? normal : Vector3r::Zero(); }
+	/// Law of a spring of a wall, and its histories.
+	const timber::WallLaw& wallLaw() const { return wall; }
+	/// With a share of its forces.
+	timber::WallCycles wallCycles(Real share) const;
+	boost::python::list pyWallHistories() const;
 	timber::SlipHistories slipHistories() { return { plasticStretches, largestStretches }; }
 	timber::SpringGroup springGroup() const { return { anchors1, broken, stiffness(), normal }; }
 	void breakSpring(size_t spring);
 	void breakAll();
-	timber::NewmarkHistory newmark() const { return { newmarkEnergy, newmarkLinear, newmarkAngular }; }
-	void setNewmark(const timber::NewmarkHistory&);
+	/// Law of the springs in steps that do not resolve them. Valid until an attribute is set.
+	std::unique_ptr<timber::SpringLaw> springLaw();
+	/// Whether the contact solver moves the springs: the step does not resolve them.
+	bool isStiff() const { return !halfStretches.empty(); }
+	/// From this step on the contact solver moves the springs.
+	void stiffen();
+	/// From the next step on JointEngine moves the springs.
+	void soften();
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(TimberJoint, Serializable, "Springs between two bodies, each anchored in "
@@ -110,20 +140,39 @@ public:
 			"by one. [-]"))
 		((string, law, "brittle", Attr::triggerPostLoad, "brittle: elastic to the strength; slip: yields at "
 			"the strength, slips in cycles and loses its strength between softeningStretch and "
-			"ultimateStretch, or follows envelope. [-]"))
+			"ultimateStretch, or follows envelope; wall: follows envelope along the normal, with the "
+			"cycles of tested walls. [-]"))
 		((Real, frictionShare, 0, Attr::triggerPostLoad, "Law slip: share of stiffness and strength that is "
 			"elastic-perfectly plastic; the rest slips. [-]"))
 		((Real, softeningStretch, std::numeric_limits<Real>::infinity(), Attr::triggerPostLoad, "Law slip: "
 			"stretch of a spring beyond which its strength falls. [m]"))
 		((Real, ultimateStretch, std::numeric_limits<Real>::infinity(), Attr::triggerPostLoad, "Law slip: "
 			"stretch of a spring at which its strength is zero and it breaks. [m]"))
-		((vector<Vector2r>, envelope, , Attr::triggerPostLoad, "Law slip: points (stretch, force) of the first "
-			"loading of each spring or of the whole joint, see perJoint, in place of softeningStretch and "
-			"ultimateStretch. The stretches ascend, the last force is 0, the largest one is the strength, "
-			"and no line is steeper than kn. Empty: yields at the strength, which falls from "
-			"softeningStretch to ultimateStretch. [m, N]"))
+		((vector<Vector2r>, envelope, , Attr::triggerPostLoad, "Laws slip and wall: points (stretch, force) of "
+			"the first loading of each spring or of the whole joint, see perJoint. The stretches ascend, "
+			"the largest force is the strength, and no line is steeper than kn. Law slip: in place of "
+			"softeningStretch and ultimateStretch, the last force is 0; empty: yields at the strength, "
+			"which falls from softeningStretch to ultimateStretch. Law wall: a last force above 0 "
+			"remains. [m, N]"))
+		((Real, frictionForce, 0, Attr::triggerPostLoad, "Law wall: force at zero stretch after yielding, of "
+			"each spring or of the whole joint. [N]"))
+		((Real, pinchedStiffness, 0, Attr::triggerPostLoad, "Law wall: stiffness within the slack, likewise. "
+			"[N/m]"))
+		((Real, reloadTarget, 1, Attr::triggerPostLoad, "Law wall: stretch at which reloading meets the "
+			"envelope, over the largest one so far. [-]"))
+		((Real, reloadShare, 0, Attr::triggerPostLoad, "Law wall: share of the slack from which it reloads, "
+			"unless reloadStiffness says otherwise. [-]"))
+		((Real, reloadStiffness, 0, Attr::triggerPostLoad, "Law wall: k0 in the stiffness of reloading, k0 "
+			"(reloadStretch / target)^reloadPower, of each spring or of the whole joint; 0: reloadShare "
+			"says where it begins. [N/m]"))
+		((Real, reloadStretch, 0, Attr::triggerPostLoad, "Law wall: see reloadStiffness. [m]"))
+		((Real, reloadPower, 0, Attr::triggerPostLoad, "Law wall: see reloadStiffness. [-]"))
 		((Real, dampingRatio, 0, Attr::triggerPostLoad, "Damping ratio of each vibration mode of the two "
 			"bodies, if they were connected by the unbroken springs and free otherwise, in [0, 1]. [-]"))
+		((Real, dampingTime, 0, Attr::triggerPostLoad, "Damping coefficient of the dashpots at the springs over "
+			"their tangent stiffness, of a house that which gives its sway the stated damping ratio. [s]"))
+		((bool, initialDamping, false, Attr::triggerPostLoad, "Whether dashpots keep the initial stiffness of "
+			"unbroken springs that have yielded, in place of the tangent stiffness. [-]"))
 		((string, kind, , , "Kind of the joint: column_beam, brace_beam, ... [-]"))
 		((string, name, , , "Name of the joint, for reports. [-]"))
 		((vector<int>, broken, , Attr::triggerPostLoad, "1 for each broken spring, else 0. [-]"))
@@ -133,11 +182,11 @@ public:
 			"frame of body 1. [m]"))
 		((vector<Real>, largestStretches, , Attr::readonly, "Law slip: largest length of each spring's stretch "
 			"so far. [m]"))
-		((Real, newmarkEnergy, 0, Attr::readonly, "Energy of Newmark's term of a stiff joint. [J]"))
-		((Vector3r, newmarkLinear, Vector3r::Zero(), Attr::hidden, "Momentum of Newmark's term, frame of body "
-			"1. [N s]"))
-		((Vector3r, newmarkAngular, Vector3r::Zero(), Attr::hidden, "Angular momentum of Newmark's term about "
-			"the centre of the springs, frame of body 1. [N m s]"))
+		((vector<timber::WallHistory>, wallHistories, , Attr::hidden, "Law wall: history of each spring. "
+			"[m, N]"))
+		((Real, storedEnergy, 0, Attr::readonly, "Energy that the springs of a stiff joint can return. [J]"))
+		((vector<Vector3r>, halfStretches, , Attr::hidden, "Stretches of a stiff joint in the middle between "
+			"the last placement and the next one, frame of body 1; empty: not stiff. [m]"))
 		((timber::JointModes, modes, , Attr::hidden, "Vibration modes of a damped joint. [-]")),
 		,
 		.add_property("forces", &TimberJoint::springForces, "Force of each spring on body 1 in the last step, "
@@ -146,6 +195,9 @@ public:
 			"of each spring in the last step, world frame. [m]")
 		.add_property("springs", &TimberJoint::pySprings, "List of dictionaries: force on body 1 [N], stretch "
 			"[m], broken.")
+		.add_property("cycles", &TimberJoint::pyWallHistories, "Law wall: list of dictionaries, one of each "
+			"spring: stretch [m] and force [N] of the last step along the normal, largest stretches of both "
+			"sides [m], and those from which it reloads [m].")
 		.add_property("isBroken", &TimberJoint::isBroken, "Whether all springs are broken. [-]")
 		.add_property("load", &TimberJoint::load, "Largest spring force over the strength; perJoint: sum of "
 			"the spring forces over the strength. A spring of the law slip that has yielded carries less "

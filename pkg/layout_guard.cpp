@@ -6,6 +6,8 @@
 #include <layout_guard.hpp>
 #include <pkg/common/Collider.hpp>
 #include <pkg/common/GravityEngines.hpp>
+#include <pkg/common/InsertionSortCollider.hpp>
+#include <pkg/common/NormShearPhys.hpp>
 
 namespace {
 
@@ -55,7 +57,8 @@ const std::vector<Field>& fields()
 	static const std::vector<Field> table {
 		VALUE(Body, id), VALUE(Body, groupMask), VALUE(Body, flags), POINTER(Body, material, Material),
 		POINTER(Body, state, State),
-		POINTER(Body, shape, Shape), POINTER(Body, bound, Bound), VALUE(Body, clumpId), VALUE(Body, timeBorn),
+		POINTER(Body, shape, Shape), POINTER(Body, bound, Bound), VALUE(Body, clumpId), VALUE(Body, iterBorn),
+		VALUE(Body, timeBorn),
 		VALUE(State, vel), VALUE(State, mass), VALUE(State, angVel), VALUE(State, angMom),
 		VALUE(State, inertia), VALUE(State, refPos),
 		VALUE(State, refOri), VALUE(State, isDamped), VALUE(State, densityScaling), VALUE(State, pos),
@@ -66,11 +69,13 @@ const std::vector<Field>& fields()
 		VALUE(Interaction, id1), VALUE(Interaction, id2), VALUE(Interaction, iterMadeReal),
 		POINTER(Interaction, geom, IGeom),
 		POINTER(Interaction, phys, IPhys), VALUE(Interaction, iterBorn),
+		VALUE(NormPhys, normalForce), VALUE(NormShearPhys, shearForce),
 		VALUE(Engine, dead), VALUE(Engine, ompThreads),
 		VALUE(Scene, dt), VALUE(Scene, iter), VALUE(Scene, time), VALUE(Scene, isPeriodic),
 		VALUE(Scene, trackEnergy), VALUE(Scene, selectedBody), VALUE(Scene, stopAtIter),
 		VALUE(Scene, stopAtTime),
 		VALUE(Scene, doSort), POINTER(Collider, boundDispatcher, BoundDispatcher),
+		VALUE(InsertionSortCollider, verletDist),
 		VALUE(GravityEngine, gravity),
 		POINTER(InteractionLoop, geomDispatcher, IGeomDispatcher),
 		POINTER(InteractionLoop, physDispatcher, IPhysDispatcher),

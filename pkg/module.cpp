@@ -5,6 +5,7 @@
 
 #include <ContactPhysics.hpp>
 #include <Gl1_RoundedPolyhedron.hpp>
+#include <Integrator.hpp>
 #include <PackedScene.hpp>
 #include <SceneAdvance.hpp>
 #include <SceneCheck.hpp>
@@ -61,7 +62,19 @@ void finishStep()
 void checkReplacedPart(const yade::Body& body)
 {
 	yade::checkBody(body);
-	yade::Omega::instance().getScene()->doSort = true;
+	yade::Scene& scene = *yade::Omega::instance().getScene();
+	yade::markPlaced(scene, body.getId());
+	scene.doSort = true;
+}
+
+/// Contacts of a body that begin in the next step are those of a body that was placed.
+void beginContactsAnew(int id) { yade::markPlaced(*yade::Omega::instance().getScene(), id); }
+
+/// Breaks the joints of a body that is erased: another one may get its id.
+void breakJointsOf(int id)
+{
+	for (const auto& engine : yade::Omega::instance().getScene()->engines)
+		if (auto* joints = dynamic_cast<yade::JointEngine*>(engine.get())) joints->breakJointsOf(id);
 }
 
 void setThreadCount(int count)
@@ -90,6 +103,8 @@ BOOST_PYTHON_MODULE(_yade_timber)
 	boost::python::def("await_step", &awaitStep, (boost::python::arg("before")));
 	boost::python::def("finish_step", &finishStep);
 	boost::python::def("check_replaced_part", &checkReplacedPart, (boost::python::arg("body")));
+	boost::python::def("begin_contacts_anew", &beginContactsAnew, (boost::python::arg("id")));
+	boost::python::def("break_joints_of", &breakJointsOf, (boost::python::arg("id")));
 	boost::python::scope().attr("joint_step_factor") = yade::jointStepFactor;
 	boost::python::def("thread_count", &timber::threadCount);
 	boost::python::def("set_thread_count", &setThreadCount, (boost::python::arg("count")));
@@ -100,6 +115,7 @@ BOOST_PYTHON_MODULE(_yade_timber)
 	boost::python::def("packed_joints", &yade::packedJoints, (boost::python::arg("engine")));
 	boost::python::def("packed_contacts", &yade::packedContacts);
 	boost::python::def("packed_springs", &yade::packedSprings);
+	boost::python::def("dashpot_power", &yade::pyDashpotPower, (boost::python::arg("velocities")));
 #ifdef YADE_OPENGL
 	boost::python::def("refresh_viewer", &yade::refreshViewer);
 #endif

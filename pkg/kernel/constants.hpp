@@ -45,9 +45,38 @@ constexpr double roundingShare = 1e-11;
 /// about flush contacts.
 constexpr double flushTolerance = 1e-4;
 
-/// Edges are parallel, and have no crossing point, if the sine of their angle is smaller than this. [-]
+/// Upper limit of the flush tolerance as a share of the contact distance of a pair. [-] It concerns bodies of some
+/// centimetres and less, whose rounding radii are not large against flushTolerance.
+/// Larger: the distances of small bodies are less accurate; smaller: rounding errors of pairs far from the origin decide
+/// about flush contacts.
+constexpr double flushShare = 0.02;
+
+/// Rounding errors of lengths in a pair. [m] A closest point beyond the end of an edge by less than this is on it.
+/// Larger: distances of vertices from edges are those from points beyond their ends; smaller: no feature is closest.
+constexpr double roundingLength = 1e-9;
+
+/// Edges are parallel, and have no crossing point, if the sine of their angle is smaller than this and vertex-edge
+/// contacts are off. [-]
 /// Larger: crossings are lost; smaller: the crossing of nearly parallel edges jumps along them.
 constexpr double parallelSine = 5e-3;
+
+/// The same with vertex-edge contacts: the ends of the edges carry. [-] The distance of edges of 1 m that cross at this
+/// angle is that of their ends to 1e-11 m.
+/// Larger: the ends of long edges are farther from each other than the edges; smaller: rounding decides where they cross.
+constexpr double smallestSine = 1e-6;
+
+/// Sine of the angle between two edges below which the ends of both have contacts, as the vertices of flush faces have.
+/// [-] Larger: more points; smaller: the ends lose their points while these carry a load.
+constexpr double lineSine = 0.05;
+
+/// Points that coincide within twice the flush tolerance are one if the second is not deeper than the first by more than
+/// this share of it. [-] Larger: overlaps are less accurate; smaller: two points at coincident corners of tilted faces.
+constexpr double duplicateShare = 1e-3;
+
+/// Minimum cosine between the normals of a point and of the one that it continues with other features. [-] Normals turn
+/// with the bodies by less in a step.
+/// Larger: springs are lost where features change; smaller: a spring acts in another direction after the change.
+constexpr double successionCosine = 0.9;
 
 /// Overlapping cores: minimum cosine between the normal of a contact point and the axis of least overlap. [-]
 /// Larger: fewer points, or the single point of the cores instead; smaller: points with normals across the axis, which
@@ -147,6 +176,18 @@ constexpr double impactLoadShare = 1;
 /// their impulses move from one point to another by 1e-4 a sweep.
 constexpr double reboundSoftness = 0.02;
 
+/// Most iterations of Newton's method for the elastic part of the overlap of a crushed contact [-], and the relative
+/// change that ends them [-]. Ten suffice where the overlap is a hundredfold of the elastic one.
+constexpr int yieldSteps = 40;
+constexpr double yieldTolerance = 1e-13;
+
+/// Steps of the Runge-Kutta method for the loading of an impact up to the strength. [-] The error of the velocity of
+/// separation is below 1e-3 of it.
+constexpr int crushingSteps = 64;
+
+/// Rounding error of the strength of a contact. [-] What a point at its strength dissipates has been crushed.
+constexpr double strengthRounding = 1e-9;
+
 /// Sweeps over the pairs between two over the joints while pairs still change. [-] Larger: light members between stiff
 /// joints and contacts converge slowly; smaller: longer sweeps.
 constexpr int jointInterval = 4;
@@ -178,6 +219,15 @@ constexpr double roundingOverlap = 1e-9;
 /// are stable below 2, several joints of a member together below less.
 /// Larger: stiff joints of a member limit the step; smaller: more joints take part in the sweeps.
 constexpr double stiffPhase = 1;
+/// Share of it below which a stiff joint's springs are explicit again. [-] Modes change by some per cent as bodies turn.
+constexpr double softPhase = 0.8;
+
+/// Newton's method of a stiff joint ends when the residual of its modal velocities is this share of them. [-]
+constexpr double springTolerance = 1e-13;
+/// Its largest number of iterations; linear springs need one, springs that yield two to six. [-]
+constexpr int springIterations = 30;
+/// Smallest share of a Newton step that is tried. [-]
+constexpr double springLeastShare = 1e-3;
 
 /// Rotation of a joint's bodies against each other from which on its vibration modes are computed again. [rad] The
 /// modes vary only with it.

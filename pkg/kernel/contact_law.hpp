@@ -7,6 +7,8 @@
 /// Signs: the normal points from body A to body B; forces act on B, A gets the opposite; a normal force is >= 0 and
 /// pushes the bodies apart. Joints have the opposite convention (joint_law.hpp).
 #pragma once
+#include "bearing_strength.hpp"
+#include "constants.hpp"
 #include "contact_step.hpp"
 #include "preconditions.hpp"
 #include <algorithm>
@@ -69,6 +71,7 @@ struct PairProperties {
 	double overlapLimit = 0; ///< the normal force is constant beyond it: the cores touch [m]
 	double dampingRatio = 1; ///< share of critical damping, C = 2 ratio sqrt(m K) (Eqs. 41, 42: 1) [-]
 	double power = HertzLaw::power; ///< exponent q of the law [-]
+	BearingStrength strength; ///< of each point
 };
 
 /// Dashpot constants of a point, C_n (Eq. 41) and C_s (Eq. 42). stiffness: K_n [N/m]; returns [N s/m].
@@ -102,6 +105,30 @@ template <class Law> double initialOverlap(const Law& law, double overlap, doubl
 	return std::min(overlap, std::max(approach, law.overlapOf(std::max(0., energy))));
 }
 
+/// Elastic part n of an overlap `total` beyond the plastic one c, of which the rest is plastic as well: F(n) = F_Y(c +
+/// total - n), or the whole, at most the limit, if its force is smaller. [m]
+/// Newton's method from above: F is convex.
+template <class Law>
+double elasticOverlap(const Law& law, const BearingStrength& strength, double c, double total, double limit)
+{
+	double n = std::min(total, limit);
+	for (int k = 0; k < yieldSteps; ++k) {
+		const double plastic = c + total - n, excess = law.force(n) - strength.force(plastic), last = n;
+		if (k == 0 && excess <= 0) break;
+		n = std::max(0., n - excess / (law.stiffness(n) + strength.slope(plastic)));
+		if (std::abs(n - last) <= yieldTolerance * last) break;
+	}
+	return n;
+}
+template <class Law>
+Lanes elasticOverlap(const Law& law, const BearingStrength& strength, const Lanes& c, const Lanes& total, double limit)
+{
+	Lanes n = total;
+	for (int i = 0; i < laneCount; ++i)
+		n.v[i] = elasticOverlap(law, strength, c.v[i], total.v[i], limit);
+	return n;
+}
+
 /// Energy of a tangential spring. [J]
 template <class Number> Number shearEnergy(const Vec3Of<Number>& force, Number stiffness)
 {
@@ -130,9 +157,27 @@ template <class Number>
 /// Normal force: the closed form (Eq. 37), or its increment form (Eq. 38), which sums K_n times the change of overlap.
 enum class NormalForm { Closed, Increment };
 
+/// Plastic part of a step: springs whose force exceeds the strength. total: overlap without the plastic one and the
+/// excess [m], in-out.
+template <class Law, class Number>
+void crush(const Law& law, const PairProperties& pair, NormalForm form, PointSprings<Number>& s, Number& total)
+{
+	const Number none = 0., strength = pair.strength.force(s.crushed);
+	const auto yields = s.normalForce > strength;
+	if (form == NormalForm::Closed)
+		s.overlap = elasticOverlap(law, pair.strength, s.crushed, total, pair.overlapLimit);
+	else s.overlap -= select(yields, Number((s.normalForce - strength) / s.stiffness), none);
+	const Number plastic = select(yields, Number(total - s.overlap), none);
+	s.crushed += plastic;
+	total -= plastic;
+	s.stiffness = law.stiffness(s.overlap);
+	s.normalForce = form == NormalForm::Closed ? law.force(s.overlap) : min(s.normalForce, strength);
+}
+
 /// Elastic forces of one point for its new normal, overlap and displacement (Eqs. 15, 16, 19, 20).
 /// The tangential spring keeps its force while n grows and loses force with K_s while n shrinks, so it never creates
 /// energy. It slides in storeForces(), once the total normal force is known.
+/// What the strength does not bear becomes plastic overlap.
 /// in: law, pair, point, motion, length h of the step [s]; in-out: springs (a new point has only its excess).
 template <class Law, class Point, class Number>
 [[gnu::always_inline]] inline void elasticStep(const Law& law, const PairProperties& pair, const Point& point,
@@ -140,9 +185,10 @@ template <class Law, class Point, class Number>
 {
 	assert(h > 0 && pair.shearRatio > 0 && pair.overlapLimit >= 0);
 	const Number none = 0., limit = pair.overlapLimit;
-	springs.excess = min(springs.excess, point.overlap);
-	const Number before = springs.overlap, stiffnessBefore = springs.stiffness,
-	             total = point.overlap - springs.excess;
+	const Number above = max(none, Number(point.overlap - springs.crushed));
+	springs.excess = min(springs.excess, above);
+	const Number before = springs.overlap, stiffnessBefore = springs.stiffness;
+	Number total = above - springs.excess;
 	springs.overlap = min(total, limit);
 	springs.stiffness = law.stiffness(springs.overlap);
 	if (form == NormalForm::Closed) springs.normalForce = law.force(springs.overlap);
@@ -150,6 +196,8 @@ template <class Law, class Point, class Number>
 		const Number sum = springs.normalForce + springs.stiffness * (springs.overlap - before);
 		springs.normalForce = select(springs.overlap > none, max(none, sum), none);
 	}
+	if (pair.strength.isLimited() && any(springs.normalForce > pair.strength.force(springs.crushed)))
+		crush(law, pair, form, springs, total);
 	springs.energy = law.energy(springs.overlap) + (total - springs.overlap) * springs.normalForce;
 
 	springs.shearForce = rotatedShear<Number>(springs.shearForce, motion.spin * h, point.normal);

@@ -38,17 +38,25 @@ namespace {
 		        relativeMotion<double>(point.position, input), input.h, input.form, record);
 	}
 
-	/// First step of a new point, with its initial overlap. available: energy released so far; returns the part of
-	/// it that the point takes. [J]
+	/// Overlap that the approach of the bodies in the last step explains. [m]
+	template <class Law> double approachAt(const Law& law, const ElasticInput& input, const ContactPoint& point)
+	{
+		const double speed
+		        = std::max(0., -relativeMotion<double>(point.position, input).velocity.dot(point.normal));
+		return approachOverlap(law, input.pair.mass, speed, input.h);
+	}
+
+	/// First step of a new point, with its initial overlap, whose force is at most the strength, and the plastic one
+	/// that the record has. available: energy released so far; returns the part of it that the point takes. [J]
 	template <class Law>
 	double initialisePoint(const Law& law, const ElasticInput& input, const ContactPoint& point, double available,
 	        PointRecord& record)
 	{
-		const double speed
-		        = std::max(0., -relativeMotion<double>(point.position, input).velocity.dot(point.normal)),
-		        approach = approachOverlap(law, input.pair.mass, speed, input.h);
-		const double initial = initialOverlap(law, point.overlap, approach, available);
-		record.excess = point.overlap - initial;
+		const double approach = approachAt(law, input, point);
+		const double initial = elasticOverlap(law, input.pair.strength.at(record.crushed), 0,
+		        initialOverlap(law, point.overlap, approach, available), point.overlap);
+		record.crushed = std::min(record.crushed, point.overlap - initial);
+		record.excess = point.overlap - record.crushed - initial;
 		elasticPoint(law, input, point, record);
 		if (input.form == NormalForm::Increment) record.impact = ImpactState::over();
 		record.normalStored = law.energy(initial) - law.energy(std::min(initial, approach));
@@ -73,6 +81,7 @@ namespace {
 	{
 		PointSprings<Number> s;
 		s.excess = record.get(&SpringsOf::excess);
+		s.crushed = record.get(&SpringsOf::crushed);
 		s.overlap = record.get(&SpringsOf::overlap);
 		s.stiffness = record.get(&SpringsOf::stiffness);
 		if (form == NormalForm::Increment) s.normalForce = record.get(&SpringsOf::normalForce);
@@ -85,6 +94,7 @@ namespace {
 	        const PointSprings<Number>& s, const Group<Number, PointRecord>& record)
 	{
 		record.set(&SpringsOf::excess, s.excess);
+		record.set(&SpringsOf::crushed, s.crushed);
 		record.set(&SpringsOf::overlap, s.overlap);
 		record.set(&SpringsOf::stiffness, s.stiffness);
 		record.set(&SpringsOf::normalForce, s.normalForce);
@@ -114,26 +124,54 @@ namespace {
 		});
 	}
 
-	/// Elastic step when features have changed: 1. move the records of persistent features and sum the energy of
-	/// the others, which do not act any more; 2. step all points. Returns the energy released minus that given to
-	/// new points. [J]
+	/// The record that a point continues with other features; null: none.
+	const PointRecord* predecessorOf(const ContactPoint& point, const Records& records)
+	{
+		if (point.predecessor == FeatureId()) return nullptr;
+		const auto at = std::find_if(records.begin(), records.end(),
+		        [&](const PointRecord& r) { return r.id == point.predecessor; });
+		return at != records.end() ? &*at : nullptr;
+	}
+
+	bool isContinued(const PointRecord& record, const Points& points)
+	{
+		return std::any_of(points.begin(), points.end(),
+		        [&](const ContactPoint& p) { return p.predecessor == record.id; });
+	}
+
+	/// Elastic step when features have changed: 1. move the records of persistent features, and of points that
+	/// continue others, and sum the energy of the rest, which do not act any more; 2. step all points. New ones take
+	/// over the largest plastic overlap of the rest: a member that slides keeps its dent. Returns the energy released
+	/// minus that given to new points. [J]
 	template <class Law>
 	double stepChangedFeatures(const Law& law, const ElasticInput& input, const Points& points, Records& records)
 	{
 		Records next(points.size());
-		double released = 0;
+		double released = 0, crushed = 0;
+		const auto release = [&](const PointRecord& r) {
+			if (isContinued(r, points)) return;
+			released += r.normalStored + r.shearStored;
+			crushed = std::max(crushed, r.crushed);
+		};
 		auto old = records.begin();
 		for (size_t k = 0; k < next.size(); ++k) { // 1.
 			for (; old != records.end() && old->id < points[k].id; ++old)
-				released += old->normalStored + old->shearStored;
+				release(*old);
 			if (old != records.end() && old->id == points[k].id) next[k] = *old++;
+			else if (const PointRecord* r = predecessorOf(points[k], records)) {
+				next[k] = *r;
+				next[k].id = points[k].id;
+			}
 		}
 		for (; old != records.end(); ++old)
-			released += old->normalStored + old->shearStored;
+			release(*old);
 		for (size_t k = 0; k < next.size(); ++k) { // 2.
 			const bool isNew = !(next[k].id == points[k].id);
 			next[k].id = points[k].id;
-			if (isNew && input.placedInContact) placePoint(law, input, points[k], next[k]);
+			if (isNew) next[k].crushed = crushed;
+			const bool isPlaced = isNew && input.placedInContact
+			        && points[k].overlap > approachAt(law, input, points[k]);
+			if (isPlaced) placePoint(law, input, points[k], next[k]);
 			else if (isNew) released -= initialisePoint(law, input, points[k], released, next[k]);
 			else elasticPoint(law, input, points[k], next[k]);
 		}
@@ -164,6 +202,8 @@ namespace {
 		p.energy = max(Number(0.), Number(record.get(&PointRecord::normalStored)));
 		p.shearEnergy = max(Number(0.), Number(record.get(&PointRecord::shearStored)));
 		p.overlap = record.get(&PointRecord::overlap);
+		if (pair.strength.isLimited())
+			p.strength = pair.strength.force<Number>(record.get(&PointRecord::crushed));
 		if (pair.power == 1) return p;
 		// K n - F = (q - 1) c n^q for F = k n + c n^q
 		p.power = pair.power;
@@ -183,16 +223,47 @@ namespace {
 			if (r.overlap == 0) r.impact = {};
 	}
 
-	/// Impacts of a pair's points: prepare phase. The history says that the surfaces have just touched, or are in
-	/// an impact.
+	/// Impacts of a pair's points: prepare phase. Those that touch in this step, and those that are in an impact.
+	struct Impacts {
+		const SolverPair& pair;
+
+		static bool begins(const PointRecord& r)
+		{
+			return r.impact.isPending() && r.normalForce > 0 && r.step.response() > 0
+			        && r.step.before[0] < 0;
+		}
+		/// Change of a point's normal velocity by unit impulses of all of them: points of a face share the
+		/// impulse. Not less than its own one over their number: they do not hold each other down. [1/kg]
+		double commonResponse(const PointStep& step) const
+		{
+			PairVector all {};
+			int count = 0;
+			for (size_t i = 0; i < pair.count; ++i) {
+				const PointRecord& r = pair.points[i];
+				if (!begins(r) && !r.impact.isActive()) continue;
+				all.add(r.step.rows[0], 1);
+				++count;
+			}
+			return std::max(all.dots(step.rows)[0], step.response() / count);
+		}
+	};
+
 	void prepareImpacts(const SolverPair& solverPair, const PairProperties& pair, double h)
 	{
+		const Impacts impacts { solverPair };
+		std::vector<ImpactState> started;
+		for (size_t i = 0; i < solverPair.count; ++i) {
+			const PointRecord& r = solverPair.points[i];
+			if (!Impacts::begins(r)) continue;
+			started.resize(solverPair.count);
+			started[i] = startImpact({ r.overlap, r.normalForce, r.stiffness },
+			        { pair.dampingRatio, pair.mass, impacts.commonResponse(r.step), -r.step.before[0],
+			                pair.strength, r.crushed },
+			        h);
+		}
 		for (size_t i = 0; i < solverPair.count; ++i) {
 			PointRecord& r = solverPair.points[i];
-			const bool closes = r.step.response() > 0 && r.step.before[0] < 0;
-			if (r.impact.isPending() && r.normalForce > 0 && closes)
-				r.impact = startImpact({ r.overlap, r.normalForce, r.stiffness }, pair.dampingRatio,
-				        pair.mass, r.step.response(), -r.step.before[0], h);
+			if (!started.empty() && Impacts::begins(r)) r.impact = started[i];
 			r.step.rebound = r.impact.rebound;
 		}
 	}
@@ -217,16 +288,21 @@ namespace {
 		}
 	}
 
-	/// Energy of the normal spring after a closing displacement `way` from the placement, F = k n + c n^q. [J]
+	/// Normal spring after a closing displacement from the placement.
+	template <class Number> struct SpringAfter {
+		Number force, stiffness, energy; ///< [N, N/m, J]
+	};
+
+	/// Normal spring after a closing displacement `way` from the placement, F = k n + c n^q.
 	/// U, F, K, n: energy [J], force [N], stiffness [N/m] and overlap [m] at the placement; room: overlap left
 	/// until the force is constant [m].
 	template <class Number>
-	[[gnu::always_inline]] inline Number energyAfter(
+	[[gnu::always_inline]] inline SpringAfter<Number> springAfter(
 	        Number U, Number F, Number K, Number n, Number room, Number way, double q)
 	{
 		const Number none = 0., g = min(max(way, Number(-n)), room),
 		             rest = max(none, Number(way - room)); // of the way, with and without change of the force
-		Number change = F * g + K * g * g / Number(2.), force = F + K * g;
+		Number change = F * g + K * g * g / Number(2.), force = F + K * g, stiffness = K;
 		if (q > 1) {
 			const Number floor = max(n, Number(roundingOverlap)), s = Number(1.) + g / floor,
 			             hard = (K * n - F) / Number(q - 1), ratio = g / floor,
@@ -235,8 +311,31 @@ namespace {
 			change += hard * floor
 			        * ((s * power - Number(1.)) / Number(q + 1) - ratio - Number(q / 2) * ratio * ratio);
 			force += hard * (power - Number(1.) - Number(q) * ratio);
+			stiffness += hard * Number(q) / floor * (power / s - Number(1.));
 		}
-		return select(way > -n, max(none, Number(U + change + rest * force)), none);
+		return { force, stiffness, select(way > -n, max(none, Number(U + change + rest * force)), none) };
+	}
+
+	/// Energy of a normal spring that has at most the strength [N], as springAfter(): Newton's method from above
+	/// finds the displacement at which it is reached. [J]
+	inline double energyAtStrength(
+	        double U, double F, double K, double n, double room, double way, double q, double strength)
+	{
+		SpringAfter<double> after = springAfter(U, F, K, n, room, way, q);
+		for (int k = 0; k < yieldSteps && way > 0 && after.force > strength * (1 + yieldTolerance); ++k) {
+			way = std::max(0., std::min(way, room) - (after.force - strength) / after.stiffness);
+			after = springAfter(U, F, K, n, room, way, q);
+		}
+		return after.energy;
+	}
+	inline Lanes energyAtStrength(const Lanes& U, const Lanes& F, const Lanes& K, const Lanes& n, const Lanes& room,
+	        const Lanes& way, double q, const Lanes& strength)
+	{
+		Lanes energy;
+		for (int i = 0; i < laneCount; ++i)
+			energy.v[i] = energyAtStrength(
+			        U.v[i], F.v[i], K.v[i], n.v[i], room.v[i], way.v[i], q, strength.v[i]);
+		return energy;
 	}
 
 	/// What a spring has after a step, and what was dissipated. The account is negative after a step whose sweeps
@@ -307,9 +406,9 @@ PairForce storeForces(ContactSolver& solver, size_t k, const PairProperties& pai
 	const SolverPair& solverPair = solver.pair(k);
 	const SolverBodies bodies = solver.bodiesOf(solverPair);
 	const double h = solver.stepLength();
-	Sums<9> impulses;
-	Sums<5> sums(energies.dashpotNormal, energies.dashpotShear, energies.friction, energies.elasticNormal,
-	        energies.elasticShear);
+	Sums<12> impulses;
+	Sums<6> sums(energies.dashpotNormal, energies.dashpotShear, energies.friction, energies.elasticNormal,
+	        energies.elasticShear, energies.crushing);
 	inLanes(solverPair.count, [&](auto number, size_t i) {
 		using Number = decltype(number);
 		using Vec = Vec3Of<Number>;
@@ -324,7 +423,8 @@ PairForce storeForces(ContactSolver& solver, size_t k, const PairProperties& pai
 			p[c] = step.get(&PointStep::impulse, c);
 		}
 		const Vec impulse = p[0] * axes[0] + p[1] * axes[1] + p[2] * axes[2], force = impulse / Number(h);
-		impulses.add<Number>(count, impulse, Vec(-armA.cross(impulse)), Vec(armB.cross(impulse)));
+		impulses.add<Number>(
+		        count, impulse, Vec(-armA.cross(impulse)), Vec(armB.cross(impulse)), Vec(p[0] * axes[0]));
 		const Number e = record.get(&PointRecord::normalForce), K = record.get(&PointRecord::stiffness),
 		             n = record.get(&PointRecord::overlap), limit = Number(pair.friction) * (p[0] / Number(h)),
 		             none = 0.;
@@ -337,30 +437,37 @@ PairForce storeForces(ContactSolver& solver, size_t k, const PairProperties& pai
 		// Closing way to the middle of the step
 		const Number separation = after.dot(axes[0]), way = Number(-h / 2) * separation;
 		const Number room = max(none, Number(Number(pair.overlapLimit) - n)),
-		             normalLaw
-		        = energyAfter<Number>(record.get(&PointRecord::energy), e, K, n, room, way, pair.power);
+		             U = record.get(&PointRecord::energy), most = step.get(&PointStep::strength),
+		             strength = most / Number(h);
+		const SpringAfter<Number> spring = springAfter<Number>(U, e, K, n, room, way, pair.power);
+		const Number normalLaw = selectLazily(
+		        spring.force > strength,
+		        [&] { return energyAtStrength(U, e, K, n, room, way, pair.power, strength); },
+		        [&] { return spring.energy; });
 		const Account<Number> normal(
 		        record.get(&PointRecord::normalStored), p[0] * mean.dot(axes[0]), normalLaw);
 
+		const Number crushing = select(p[0] >= most * Number(1 - strengthRounding), normal.dissipated, none);
 		const Number shearStiffness = Number(pair.shearRatio) * K;
 		// Spring in the middle of the step
 		const Vec slip = Number(h / 2) * (after - separation * axes[0]), ahead = shear - shearStiffness * slip;
 		const auto sliding
 		        = (p[1] * p[1] + p[2] * p[2]) >= (limit * limit) * Number(h * h * (1 - slidingRounding));
-		const Vec spring = select(sliding, shear, ahead);
+		const Vec shearSpring = select(sliding, shear, ahead);
 		const Account<Number> tangential(record.get(&PointRecord::shearStored),
 		        p[1] * mean.dot(axes[1]) + p[2] * mean.dot(axes[2]),
-		        shearEnergy<Number>(spring, shearStiffness));
+		        shearEnergy<Number>(shearSpring, shearStiffness));
 		record.set(&PointRecord::normalStored, normal.stored);
 		record.set(&PointRecord::shearStored, tangential.stored);
 		const Number friction = select(sliding, tangential.dissipated, none),
 		             dashpot = tangential.dissipated - friction;
-		sums.add<Number>(count, normal.dissipated, dashpot, friction, normal.stored, tangential.stored);
+		sums.add<Number>(count, Number(normal.dissipated - crushing), dashpot, friction, normal.stored,
+		        tangential.stored, crushing);
 	});
-	energies = { sums[0], sums[1], sums[2], sums[3], sums[4] };
-	const PairForce impulse { impulses.vector(0), impulses.vector(3), impulses.vector(6) };
+	energies = { sums[0], sums[1], sums[2], sums[3], sums[4], sums[5] };
+	const PairForce impulse { impulses.vector(0), impulses.vector(3), impulses.vector(6), impulses.vector(9) };
 	followImpacts(solverPair, bodies, impulse, h);
-	return { impulse.onB / h, impulse.torqueA / h, impulse.torqueB / h };
+	return { impulse.onB / h, impulse.torqueA / h, impulse.torqueB / h, impulse.normalOnB / h };
 }
 
 } // namespace timber

@@ -7,7 +7,8 @@
 /// Account of a spring (PointHistory::normalStored, shearStored), between two placements: a step adds the work -p (v +
 /// v') / 2 that the bodies do on the point with the impulse p of spring and dashpot. What exceeds the energy of the law
 /// there has been dissipated. Rule (5) of the solver keeps the accounts from going below zero but for errors of the
-/// sweeps, which later work settles. No dissipation is negative.
+/// sweeps, which later work settles. No dissipation is negative. The normal spring has at most the energy at its
+/// strength; what a point at its strength dissipates is crushing.
 #pragma once
 #include "contact_law.hpp"
 #include "contact_solver.hpp"
@@ -20,8 +21,8 @@ struct ElasticInput {
 	BodyKinematics a, b;
 	double h; ///< length of the step [s]
 	NormalForm form = NormalForm::Closed;
-	/// The pair is new and its bodies were placed as they are: new points have their whole overlap, not
-	/// initialOverlap().
+	/// The pair is new and one of its bodies was placed as it is: new points have their whole overlap, not
+	/// initialOverlap(). Those whose approach in a step explains it begin an impact.
 	bool placedInContact = false;
 };
 
@@ -40,12 +41,14 @@ void prepareContacts(
 /// Total force and torques of a pair's points; each torque about the body's own centre. [N, N m]
 struct PairForce {
 	Vec3 onB = Vec3::Zero(), torqueA = Vec3::Zero(), torqueB = Vec3::Zero();
+	Vec3 normalOnB = Vec3::Zero(); ///< part of onB along the points' normals
 };
 
 /// Energies dissipated in a step, and those of the springs in the middle between its placement and the next one. [J]
 struct PairEnergies {
 	double dashpotNormal = 0, dashpotShear = 0, friction = 0;
 	double elasticNormal = 0, elasticShear = 0;
+	double crushing = 0; ///< dissipated by points at their strength
 };
 
 /// Stores forces, history and energies of the points of the k-th pair. energies: added to.

@@ -12,7 +12,8 @@ namespace timber {
 /// State of a point's springs. Forces act on B.
 template <class Number> struct PointSprings {
 	Number excess = 0.; ///< initial overlap that carries no force, see initialOverlap() [m]
-	Number overlap = 0.; ///< effective overlap n = overlap - excess, at most the limit [m]
+	Number crushed = 0.; ///< plastic overlap c [m]
+	Number overlap = 0.; ///< elastic overlap n = overlap - crushed - excess, at most the limit [m]
 	Number stiffness = 0.; ///< K_n [N/m]
 	Number normalForce = 0.; ///< elastic normal force e_n [N]
 	/// U(n) of the normal spring; beyond the limit, where the force is constant, it grows linearly [J]
@@ -43,6 +44,7 @@ struct PointStep {
 	double hardening, power, overlap, room,
 	        damping; ///< c n_0^q, q, n_0, overlap left to the limit (> 0 if the point hardens), C_n
 	double length; ///< h
+	double strength; ///< h F_Y
 	bool bounded; ///< whether (6) limited the impulse in the last visit
 	Vec3 axes[3]; ///< unit: normal from A to B, tangent, second tangent
 	Vec3 armA, armB; ///< from the centres of mass to the point [m]

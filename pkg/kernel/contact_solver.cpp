@@ -22,6 +22,13 @@ namespace {
 		        && isNonNegative(p.overlap) && isNonNegative(p.room) && p.power >= 1;
 	}
 
+	/// Energy that a point has returned beyond its accounts (5) with a change of the pair's weighted velocities. [J]
+	double excessOf(const PointStep& c, const PairVector& velocity)
+	{
+		const PointStep::Quad work = c.impulse * (c.before + c.velocity + velocity.dots(c.rows)) / 2;
+		return std::max(0., work[0] - c.energy) + std::max(0., work[1] + work[2] - c.shearEnergy);
+	}
+
 } // namespace
 
 void ContactSolver::begin(std::vector<SolverBody>& sceneBodies, double step, int sweepLimit)
@@ -73,12 +80,13 @@ size_t ContactSolver::addJoint(int bodyA, int bodyB)
 	return joints.size() - 1;
 }
 
-void ContactSolver::prepareJoint(
-        size_t k, const JointModes& modes, const Mat3& axesA, double ratio, const NewmarkHistory& history)
+ModalConstraint& ContactSolver::prepareJoint(
+        size_t k, const JointModes& modes, const Mat3& axesA, const JointDamping& damping)
 {
 	assert(k < joints.size());
 	timber::prepareModes(
-	        joints[k], (*bodies)[joints[k].bodyA], (*bodies)[joints[k].bodyB], modes, axesA, ratio, h, history);
+	        joints[k], (*bodies)[joints[k].bodyA], (*bodies)[joints[k].bodyB], modes, axesA, damping, h);
+	return joints[k];
 }
 
 template <class Number> void ContactSolver::prepare(size_t k, size_t first, const StepInput<Number>& data)
@@ -223,8 +231,24 @@ double ContactSolver::largestChange() const
 	return largest;
 }
 
+/// Energy that the other contacts of a pair's free bodies have returned beyond their accounts (5). [J]
+double ContactSolver::excessBeside(const SolverPair& pair) const
+{
+	const auto isShared = [&](int body) {
+		return (body == pair.bodyA || body == pair.bodyB) && (*bodies)[body].inverseMass > 0;
+	};
+	double excess = 0;
+	for (const SolverPair& other : pairs) {
+		if (&other == &pair || !(isShared(other.bodyA) || isShared(other.bodyB))) continue;
+		const PairVector velocity = PairVector::of(weighted[other.bodyA].change, weighted[other.bodyB].change);
+		for (size_t k = 0; k < other.count; ++k)
+			excess += excessOf(other.points[k].step, velocity);
+	}
+	return excess;
+}
+
 /// Velocity of separation w of an impact whose single point leaves its overlap within the step, or has no force any
-/// more.
+/// more, unless other contacts of its bodies would then return too much.
 void ContactSolver::applyRestitution(const SolverPair& pair)
 {
 	PointStep* alone = nullptr;
@@ -240,11 +264,17 @@ void ContactSolver::applyRestitution(const SolverPair& pair)
 	             a = alone->response();
 	const bool separates = un > 0 && (p == 0 || un * h > alone->overlap);
 	if (!separates || un >= alone->rebound) return;
-	const double more = std::min(p + (alone->rebound - un) / a, energyImpulse(*alone, un - a * p)) - p;
+	const double more
+	        = std::min({ p + (alone->rebound - un) / a, energyImpulse(*alone, un - a * p), alone->strength }) - p;
 	if (more <= 0) return;
-	alone->impulse[0] += more;
-	velocity.add(alone->rows[0], more);
-	velocity.store(weighted[pair.bodyA].change, weighted[pair.bodyB].change);
+	const auto change = [&](double impulse) {
+		alone->impulse[0] += impulse;
+		velocity.add(alone->rows[0], impulse);
+		velocity.store(weighted[pair.bodyA].change, weighted[pair.bodyB].change);
+	};
+	const double before = excessBeside(pair);
+	change(more);
+	if (excessBeside(pair) > before + returnTolerance * more * alone->rebound) change(-more);
 }
 
 /// Whether points have returned more energy beyond their accounts (5) than a share of the kinetic energy and the
@@ -256,8 +286,7 @@ bool ContactSolver::returnsTooMuch() const
 		const PairVector velocity = PairVector::of(weighted[pair.bodyA].change, weighted[pair.bodyB].change);
 		for (size_t k = 0; k < pair.count; ++k) {
 			const PointStep& c = pair.points[k].step;
-			const PointStep::Quad work = c.impulse * (c.before + c.velocity + velocity.dots(c.rows)) / 2;
-			excess += std::max(0., work[0] - c.energy) + std::max(0., work[1] + work[2] - c.shearEnergy);
+			excess += excessOf(c, velocity);
 			energy += c.energy + c.shearEnergy;
 		}
 	}
@@ -370,6 +399,8 @@ Convergence ContactSolver::solve(double tolerance)
 	assert(tolerance >= 0);
 	for (const SolverPair& pair : pairs)
 		warmStart(pair);
+	for (const ModalConstraint& joint : joints)
+		timber::warmStart(joint, motionOf(joint.bodyA), motionOf(joint.bodyB));
 	Convergence result;
 	if (isExplicit())
 		for (ModalConstraint& joint : joints)

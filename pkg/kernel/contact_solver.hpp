@@ -19,7 +19,7 @@
 ///     D = theta h C + beta h2 K,   Q = beta h2 K - (1 - theta) h C
 /// The solver visits one point after the other. Let b = u_n - a p_n0 be its velocity without its own impulse. A visit
 /// solves (2) within the limits of the contact:
-///     normal      p_n = max(0, min(p, p_A, p_w)),   p by (2) or (7)                             (3)
+///     normal      p_n = max(0, min(p, p_A, p_w, h F_Y)),   p by (2) or (7)                      (3)
 ///     tangential  p_s = f_s p_s0 + B_s - M_s (u_s + a_ns (p_n - p_n0)), shortened to mu p_n        (4)
 /// A spring returns at most its account A, the work that the bodies have done on it as far as it is neither returned
 /// nor dissipated:
@@ -81,6 +81,7 @@
 ///     C_n, C_s   damping        dashpot constant (Eqs. 41, 42) [N s/m]
 ///     D          -              weight of the velocity after the step [kg]
 ///     e_n, e_s   elastic force  of the springs at the placement of the step [N]
+///     F_Y        strength       of the contact (bearing_strength.hpp): h F_Y [N s]
 ///     f_n, f_s   factor         share of the current impulse that remains [-]
 ///     gamma      -              share of the last direction in the next one [-]
 ///     h          length         of the step [s]
@@ -150,8 +151,8 @@ public:
 	/// Phase 2: points of the k-th pair from `first` on, one or up to laneCount. Thread-safe for different pairs.
 	template <class Number> void prepare(size_t k, size_t first, const StepInput<Number>& input);
 	/// Phase 2: the k-th joint; arguments as of timber::prepareModes(). Thread-safe for different joints.
-	void prepareJoint(
-	        size_t k, const JointModes& modes, const Mat3& axesA, double ratio, const NewmarkHistory& history);
+	ModalConstraint& prepareJoint(
+	        size_t k, const JointModes& modes, const Mat3& axesA, const JointDamping& damping);
 	/// Phase 3: computes impulses and new velocities. Pairs are visited in the order of their indices, the points
 	/// of a pair forwards and backwards in turn, so that no side of a face is favoured. After the first sweep only
 	/// active pairs are visited: those of which a body has just changed. A pair counts as changed above `tolerance`
@@ -214,6 +215,7 @@ private:
 	bool sweepOnce(double threshold, bool forwards);
 	bool sweepJoints(double threshold, double applied = 1);
 	double largestChange() const;
+	double excessBeside(const SolverPair& pair) const;
 	void applyRestitution(const SolverPair& pair);
 	bool returnsTooMuch() const;
 	/// Calls visit(x, weight) for each number x of (9); weight: in the norm [1/kg].

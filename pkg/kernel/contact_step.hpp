@@ -21,8 +21,9 @@ template <class Number> struct StepInput {
 	Number hardening = 0.; ///< c n_0^q: part of the normal force that hardens; 0: linear spring [N]
 	Number overlap = 0., room = 0.; ///< n_0, and how much it may grow until the force is constant [m]
 	double power = 1; ///< q [-]
+	Number strength = unlimitedEnergy; ///< F_Y [N]
 
-	/// A_n and A_s of a point without rule (5). [J]
+	/// A_n and A_s of a point without rule (5) [J], strength of an elastic one [N].
 	static constexpr double unlimitedEnergy = std::numeric_limits<double>::infinity();
 };
 
@@ -186,6 +187,7 @@ void prepareSteps(const StepInput<Number>& p, const SolverBodies& bodies, double
 		s.damping = lane(p.normalDamping, i);
 		s.power = p.power;
 		s.length = h;
+		s.strength = h * lane(p.strength, i);
 		s.bounded = false;
 		for (int c = 0; c < 3; ++c)
 			s.axes[c] = lane(axes[c], i);
@@ -198,7 +200,7 @@ template <class Number> Vec3Of<Number> explicitImpulse(const StepInput<Number>& 
 {
 	const Vec3Of<Number> v = bodies.velocityBefore<Number>(p.armA, p.armB);
 	const Number vn = v.dot(p.normal);
-	const Number normalForce = max(Number(0.), Number(p.elasticNormal - p.normalDamping * vn)),
+	const Number normalForce = min(max(Number(0.), Number(p.elasticNormal - p.normalDamping * vn)), p.strength),
 	             limit = p.friction * normalForce;
 	const Vec3Of<Number> dashpotForce = p.shearDamping * (v - vn * p.normal);
 	const Vec3Of<Number> shearForce = selectLazily(

@@ -71,8 +71,8 @@ inline double hardenedImpulse(const PointStep& c, double linear, double way)
 	return linear + (way - d) / (h * a);
 }
 
-/// Normal impulse (3): the least of what springs and dashpots give, (2) or (7), of what the energy (5) and the impact
-/// (6) admit. un: u_n [m/s];
+/// Normal impulse (3): the least of what springs and dashpots give, (2) or (7), of what the energy (5), the impact (6)
+/// and the strength admit. un: u_n [m/s];
 /// linear: p_n by (2) [N s]. As a function of the velocity b without the point's impulse it is continuous and does not
 /// increase.
 [[gnu::always_inline]] inline double normalImpulse(PointStep& c, double un, double linear)
@@ -86,7 +86,7 @@ inline double hardenedImpulse(const PointStep& c, double linear, double way)
 		const double bound = reboundImpulse(c, base);
 		if (bound < p) p = bound, c.bounded = true;
 	}
-	return p;
+	return std::min(p, c.strength);
 }
 
 /// Rule (5) for the tangential impulse p of a point, in the axes of its tangents.

@@ -186,7 +186,7 @@ namespace {
 		/// Nearly parallel edges: the distance of the segments decides.
 		void testParallelEdges(FeatureId id, const Edge& ea, const Edge& eb, double sine)
 		{
-			if (sine + maxRotation < parallelSine) return;
+			if (sine + maxRotation < pair.crossingLimit()) return;
 			const Vec3 &tailA = pair.a.core.vertices[ea.tail], &headA = pair.a.core.vertices[ea.head];
 			const Vertex &tailB = verticesB[eb.tail], &headB = verticesB[eb.head];
 			const double motion = std::min(std::max(verticesA[ea.tail].motion, verticesA[ea.head].motion),

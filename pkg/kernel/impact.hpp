@@ -17,8 +17,12 @@
 ///
 /// Symbols: a inverse effective mass [1/kg], m equivalent mass (Eq. 43) [kg], n overlap [m], q power of the law (Hertz:
 /// 1.5) [-].
+/// A point with the strength F_Y has the total force min(F_Y, F + C n'). The unloading from rest at the overlap d ends
+/// with e^1/2 times the velocity v(d) = (2 a U(d))^1/2. So does an impact that is crushed, d: the elastic overlap at the
+/// strength. Otherwise d is that at which the loading ends. Both follow from one quadrature:
+///     d(v^2)/dn = -2 a min(F_Y, F + C v),   v = n'                                              (3)
 #pragma once
-#include <limits>
+#include "bearing_strength.hpp"
 
 namespace timber {
 
@@ -54,13 +58,27 @@ struct PowerSpring {
 
 	double power() const { return stiffness * overlap / force; } ///< q [-]
 	double energy() const { return force * overlap / (power() + 1); } ///< [J]
+	/// Energy at that force. [J]
+	double energyAt(double other) const { return energy() * std::pow(other / force, 1 + 1 / power()); }
 	/// Duration of the undamped impact of a mass [kg] with a speed > 0 [m/s]. [s]
 	double duration(double mass, double speed) const;
 };
 
-/// Impact of a point whose surfaces have touched in the last step. dampingRatio: C / (2 sqrt(m K)) [-]; mass: m [kg];
-/// response: a [1/kg]; speed: of closing, > 0 [m/s]; h: step [s].
-ImpactState startImpact(
-        const PowerSpring& spring, double dampingRatio, double mass, double response, double speed, double h);
+/// Point that touches, alone or with others that share the impulse.
+struct Touch {
+	double dampingRatio; ///< C / (2 sqrt(m K)) [-]
+	double mass; ///< m [kg]
+	double response; ///< a: velocity change by a unit impulse of each of them [1/kg]
+	double speed; ///< of closing, > 0 [m/s]
+	BearingStrength strength;
+	double crushed = 0; ///< plastic overlap [m]
+};
+
+/// Velocity after an impact (3) over v(d) at the strength, d, before crushing begins. ratio: D; q: power; speed: of
+/// closing, over v(d); rest: part of its energy that crushes beyond d, output. [-]
+double reboundAtStrength(double ratio, double q, double speed, double& rest);
+
+/// Impact of a point whose surfaces have touched in the last step. h: step [s].
+ImpactState startImpact(const PowerSpring& spring, const Touch& touch, double h);
 
 } // namespace timber

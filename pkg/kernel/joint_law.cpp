@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "joint_law.hpp"
 #include "preconditions.hpp"
+#include <algorithm>
 #include <cassert>
+#include <limits>
 
 namespace timber {
 namespace {
@@ -92,7 +94,7 @@ void springForces(const JointStiffness& stiffness, const JointPlacement& placeme
 	double largest = 0;
 	for (size_t i = 0; i < laneCount; ++i)
 		largest = std::max(largest, lane(largestSquared, i));
-	total = { sums.vector(0), sums.vector(3), sums.vector(6), sums[9], 0, largest, sums[10] };
+	total = { sums.vector(0), sums.vector(3), sums.vector(6), sums[9], 0, 1, largest, sums[10] };
 }
 
 bool isOverloaded(const JointStrength& limit, const JointForce& force)
@@ -112,15 +114,87 @@ std::vector<SpringBreak> springBreaks(const JointStiffness& k, const JointStreng
 {
 	assert(limit.strength > 0 && isValid(k) && isValid(springs) && isUnit(normal) && motion.h > 0);
 	std::vector<SpringBreak> breaks;
+	double sum = 0;
+	for (const Vec3& force : springs.forces)
+		sum += force.norm();
 	for (size_t i = 0; i < springs.broken.size(); ++i) {
+		// Of the force at the placement: it breaks on the way
+		const double share = limit.strength / (limit.perJoint ? sum : springs.forces[i].norm());
 		const bool exceeds
 		        = limit.perJoint || springs.forces[i].squaredNorm() > limit.strength * limit.strength;
 		if (springs.broken[i] || !exceeds) continue;
 		SpringForce<double> f = springForce<double>(k, springs.stretches[i], placement.axesA * normal);
-		breaks.push_back({ i, breakCause(f), springs.forces[i].norm(),
+		breaks.push_back({ i, breakCause(f), share * springs.forces[i].norm(),
 		        energyAtBreak(f, placement.axesB * springs.anchorsB[i], motion) });
 	}
 	return breaks;
+}
+
+BrittleSprings::BrittleSprings(const JointStiffness& k, const JointStrength& limit, const Vec3& normal)
+        : stiffness(k.shear * Mat3::Identity() + (k.normal - k.shear) * normal * normal.transpose())
+        , strength(limit)
+{
+	assert(isValid(k) && limit.strength > 0 && isUnit(normal));
+}
+
+SpringState BrittleSprings::elastic(const Vec3& stretch) const
+{
+	SpringState state;
+	state.force = stiffness * stretch;
+	state.tangent = stiffness;
+	state.energy = state.force.dot(stretch) / 2;
+	return state;
+}
+
+/// Shortens the force of an elastic state. The stretch beyond it is plastic in this step.
+void BrittleSprings::weaken(SpringState& state, double share) const
+{
+	const double work = 2 * state.energy;
+	const Vec3 pulled = stiffness * state.force;
+	state.tangent.setZero();
+	if (work > 0) state.tangent = share * (stiffness - pulled * pulled.transpose() / state.force.dot(pulled));
+	state.force *= share;
+	state.energy = share * share * work / 2;
+	state.dissipated = share * (1 - share) * work;
+	state.breaks = true;
+}
+
+SpringState BrittleSprings::trial(size_t, const Vec3&, const Vec3& to) const
+{
+	SpringState state = elastic(to);
+	const double size = state.force.norm();
+	if (!strength.perJoint && size > strength.strength) weaken(state, strength.strength / size);
+	return state;
+}
+
+double BrittleSprings::limit(std::vector<SpringState>& states, std::vector<Vec3>& shared) const
+{
+	double sum = 0;
+	for (const SpringState& s : states)
+		sum += s.force.norm();
+	if (!strength.perJoint || sum <= strength.strength) return 0;
+	// Forces below `less` vanish, which leaves more to the others
+	std::vector<double> sizes;
+	for (const SpringState& s : states)
+		sizes.push_back(s.force.norm());
+	std::sort(sizes.begin(), sizes.end());
+	size_t first = 0;
+	double less = 0;
+	for (;; sum -= sizes[first++]) {
+		less = (sum - strength.strength) / double(sizes.size() - first);
+		if (less < sizes[first]) break;
+	}
+	double softest = std::numeric_limits<double>::infinity();
+	for (size_t i = 0; i < states.size(); ++i) {
+		const double size = states[i].force.norm();
+		shared[i] = size > less ? Vec3(states[i].force / size) : Vec3(Vec3::Zero());
+		weaken(states[i], size > less ? 1 - less / size : 0);
+		if (size <= less) continue;
+		const double k = shared[i].dot(stiffness * shared[i]);
+		states[i].tangent += k * shared[i] * shared[i].transpose();
+		softest = std::min(softest, k);
+	}
+	return softest / double(states.size() - first);
 }
 
 } // namespace timber

@@ -11,7 +11,7 @@
 ///       the forces again.
 #pragma once
 #include "kinematics.hpp"
-#include <vector>
+#include "spring_law.hpp"
 
 namespace timber {
 
@@ -79,8 +79,17 @@ struct JointForce {
 	Vec3 force = Vec3::Zero(), torqueA = Vec3::Zero(), torqueB = Vec3::Zero(); ///< [N, N m]
 	double energy = 0; ///< [J]
 	double dissipated = 0; ///< in this step, by yielding (slip_law.hpp) [J]
+	/// Tangent stiffness of the unbroken springs over the initial one, in the mean, never negative [-]
+	double tangent = 1;
 	double largestSquared = 0; ///< square of the largest spring force [N2]
 	double sum = 0; ///< of the magnitudes of the spring forces [N]
+	bool isKnown = false; ///< a law has computed it
+
+	/// Power of the forces on the bodies. [W]
+	double power(const BodyKinematics& a, const BodyKinematics& b) const
+	{
+		return force.dot(a.velocity - b.velocity) + torqueA.dot(a.spin) + torqueB.dot(b.spin);
+	}
 };
 
 /// Stretches and forces of a joint's springs. normal: in the frame of A; first, end: the groups of springs, out: their
@@ -119,5 +128,23 @@ struct JointMotion {
 /// springForces().
 std::vector<SpringBreak> springBreaks(const JointStiffness& k, const JointStrength& limit,
         const JointPlacement& placement, const Vec3& normal, const JointSprings& springs, const JointMotion& motion);
+
+/// The springs in a step that does not resolve them: forces within the strength, springs that reach it break at the
+/// end of the step.
+class BrittleSprings : public SpringLaw {
+	Mat3 stiffness; ///< K, in the axes of A [N/m]
+	JointStrength strength;
+
+	SpringState elastic(const Vec3& stretch) const;
+	void weaken(SpringState& state, double share) const;
+
+public:
+	/// normal: in the frame of A
+	BrittleSprings(const JointStiffness&, const JointStrength&, const Vec3& normal);
+	SpringState trial(size_t spring, const Vec3& from, const Vec3& to) const override;
+	SpringState commit(size_t spring, const Vec3& from, const Vec3& to) override { return trial(spring, from, to); }
+	/// With P_max of the joint, the forces beyond it fall by the same number: the closest ones in terms of energy.
+	double limit(std::vector<SpringState>& states, std::vector<Vec3>& shared) const override;
+};
 
 } // namespace timber

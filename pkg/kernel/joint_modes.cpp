@@ -81,6 +81,17 @@ namespace {
 		return result;
 	}
 
+	/// Sets modes, axes, arms and eta.
+	void place(ModalConstraint& c, const SolverBody& a, const SolverBody& b, const JointModes& modes,
+	        const Mat3& axesA)
+	{
+		c.modes = &modes;
+		c.axesA = axesA;
+		c.armA = axesA * modes.centre;
+		c.armB = c.armA + a.position - b.position;
+		c.before = modalVelocity(c, twist(c, a.velocity, a.spin, b.velocity, b.spin));
+	}
+
 	/// Z q, in world axes.
 	[[gnu::always_inline]] inline JointImpulse impulseOf(const ModalConstraint& c, const Vec6& q)
 	{
@@ -119,46 +130,67 @@ JointModes jointModes(const SolverBody& a, const SolverBody& b, const Mat3& axes
 	const Eigen::SelfAdjointEigenSolver<Mat6> solver(L.transpose() * stiffnessMatrix(springs, result.centre) * L);
 	// Rounding may make the eigenvalue of a free rotation negative
 	result.frequencies = solver.eigenvalues().cwiseMax(0).cwiseSqrt();
+	result.twists = L * solver.eigenvectors();
 	result.modes = L.transpose().triangularView<Eigen::Upper>().solve(solver.eigenvectors());
 	return result;
 }
 
-void prepareModes(ModalConstraint& c, const SolverBody& a, const SolverBody& b, const JointModes& modes,
-        const Mat3& axesA, double ratio, double h, const NewmarkHistory& history)
+double dashpotPower(const SolverBody& a, const SolverBody& b, const JointModes& modes, const Mat3& axesA,
+        const JointDamping& damping)
 {
-	assert(h > 0 && ratio >= 0 && modes.state.springs > 0 && isRotation(axesA));
-	c.modes = &modes;
-	c.axesA = axesA;
-	c.armA = axesA * modes.centre;
-	c.armB = c.armA + a.position - b.position;
-	c.before = modalVelocity(c, twist(c, a.velocity, a.spin, b.velocity, b.spin));
-	const Eigen::Array<double, 6, 1> phase = h * modes.frequencies.array(), x = ratio * phase, y = phase.square();
-	const Eigen::Array<double, 6, 1> g = (phase > stiffPhase).select(y.square() / (4 * y + 2), 0.);
+	ModalConstraint c;
+	place(c, a, b, modes, axesA);
+	return modes.frequencies.unaryExpr([&](double omega) { return damping.of(omega); }).dot(c.before.cwiseAbs2());
+}
+
+void prepareModes(ModalConstraint& c, const SolverBody& a, const SolverBody& b, const JointModes& modes,
+        const Mat3& axesA, const JointDamping& damping, double h)
+{
+	assert(h > 0 && damping.ratio >= 0 && damping.time >= 0 && damping.tangent >= 0);
+	assert(modes.state.springs > 0 && isRotation(axesA));
+	place(c, a, b, modes, axesA);
+	const Eigen::Array<double, 6, 1> phase = h * modes.frequencies.array(),
+	                                   x = h / 2 * modes.frequencies.array().unaryExpr([&](double omega) {
+		                                   return damping.of(omega);
+	                                   });
 	const double stiffest = std::max(stiffPhase, phase[5]), square = stiffest * stiffest; // frequencies increase
 	c.thresholdShare = 1 / (square * square);
 	c.decay = x;
-	c.share = (x + g) / (1 + x + g);
-	c.bias = -x / (1 + x + g) * c.before.array();
-	if (modes.isStiff(h)) {
-		Vec6 momentum;
-		momentum << history.linear, history.angular;
-		const Vec6 m = modes.modes.partialPivLu().solve(momentum);
-		c.bias.array() += (phase > stiffPhase).select(m.array() / (1 + x + g), 0.);
-	}
-	c.newmark = g;
+	c.share = x / (1 + x);
+	c.bias = -x / (1 + x) * c.before.array();
 	c.impulse.setZero();
-	c.history = history;
+	c.h = h;
 	c.dissipated = 0;
+}
+
+void addSprings(ModalConstraint& c, SpringSteps springs)
+{
+	c.springs = std::move(springs);
+	c.impulse = c.springs.warmStart(c.h);
+}
+
+void warmStart(const ModalConstraint& c, const BodyMotion& a, const BodyMotion& b)
+{
+	if (!c.springs.empty()) apply(c, a, b, c.impulse);
+}
+
+namespace {
+	/// q by (3), within the energy that dashpots dissipate.
+	Vec6 dashpotImpulse(const ModalConstraint& c, const Vec6& now)
+	{
+		const Vec6 sum = c.before + now - c.impulse; // eta + eta' without q
+		Vec6 q = c.share.cwiseProduct(c.impulse - now) + c.bias;
+		const double square = q.squaredNorm(), linear = q.dot(sum); // work: (linear + square) / 2
+		if (linear + square > 0) q *= largestShare(linear, square, 0);
+		return q;
+	}
 }
 
 void solveModes(ModalConstraint& c, const BodyMotion& a, const BodyMotion& b, double threshold)
 {
-	const Vec6 now = modalNow(c, a, b), sum = c.before + now - c.impulse; // eta + eta' without q
-	Vec6 q = c.share.cwiseProduct(c.impulse - now) + c.bias; // (3)
-	const double square = q.squaredNorm(), linear = q.dot(sum); // work: (linear + square) / 2
-	const double account = std::max(0., c.history.stored);
-	if (linear + square > 2 * account) q *= largestShare(linear, square, account); // (4)
-	const Vec6 change = q - c.impulse;
+	const Vec6 now = modalNow(c, a, b);
+	const Vec6 q = c.springs.empty() ? dashpotImpulse(c, now) : c.springs.impulse(c.step(), now - c.impulse, now),
+	           change = q - c.impulse;
 	c.squaredChange = change.squaredNorm();
 	if (c.squaredChange <= threshold) return;
 	c.impulse += change;
@@ -167,19 +199,19 @@ void solveModes(ModalConstraint& c, const BodyMotion& a, const BodyMotion& b, do
 
 void applyExplicitModes(ModalConstraint& c, const BodyMotion& a, const BodyMotion& b)
 {
-	c.newmark.setZero();
 	c.impulse = -2 * c.decay.cwiseProduct(c.before);
 	apply(c, a, b, c.impulse);
 }
 
 void finishModes(ModalConstraint& c, const BodyMotion& a, const BodyMotion& b)
 {
-	const Vec6 now = modalNow(c, a, b);
-	const double available = c.history.stored - c.impulse.dot(c.before + now) / 2,
-	             mass = c.newmark.dot(now.cwiseProduct(now)) / 2;
-	const Vec6 momentum = c.modes->modes * c.newmark.cwiseProduct(now);
-	c.history = { std::min(available, mass), momentum.head<3>(), momentum.tail<3>() };
-	c.dissipated = available - c.history.stored;
+	const Vec6 now = modalNow(c, a, b), sum = c.before + now;
+	c.after = now;
+	if (c.springs.empty()) c.dissipated = -c.impulse.dot(sum) / 2;
+	else {
+		c.dissipated = sum.dot(c.decay.cwiseProduct(sum)) / 2;
+		c.springs.finish(c.step(), c.impulse, now);
+	}
 }
 
 JointImpulse jointImpulse(const ModalConstraint& c) { return impulseOf(c, c.impulse); }

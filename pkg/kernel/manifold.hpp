@@ -7,8 +7,10 @@
 /// Vertex and face: in contact while the vertex projects onto the face. Two edges: in contact while they cross inside
 /// both.
 /// A face resting on a face thus has a point per supported vertex and per crossing of border edges.
+/// With vertex-edge contacts some point is always at the shortest distance of the cores.
 /// Deep contact (the cores overlap): only points with a normal near the axis of least overlap count. If there are none,
-/// one point in the overlap region is used instead, so that the pair is always pushed apart.
+/// or with vertex-edge contacts none as deep as the cores, a point in the overlap region is added, so that the pair is
+/// always pushed apart.
 /// Flush members have vertices exactly above the border of a face: `Patterns::flushSupports` decides these contacts.
 #pragma once
 #include "polyhedron.hpp"
@@ -50,6 +52,8 @@ struct FeatureId {
 
 struct ContactPoint {
 	FeatureId id;
+	/// Point of the last update that this one continues with other features, see succession.hpp; default: none.
+	FeatureId predecessor;
 	Vec3 position; ///< middle of the overlap, world frame [m]
 	Vec3 normal; ///< unit, from A to B, world frame
 	double overlap; ///< > 0 [m]
@@ -85,6 +89,9 @@ struct CandidateCache {
 	bool coresMayOverlap = false; ///< within the margin
 	Vec3 axis = Vec3::Zero(); ///< last axis found of the largest gap between the cores, unit, frame of A
 	double supportA = 0; ///< largest coordinate of core A along the axis [m]
+	// Only used within an update; members for their memory
+	std::vector<ContactPoint> before; ///< points of the last update
+	std::vector<FeatureId> vertexContacts;
 
 	CandidateCache() = default;
 	CandidateCache(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Patterns& p)

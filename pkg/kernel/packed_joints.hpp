@@ -9,6 +9,7 @@ namespace timber {
 struct PackedJoint {
 	int bodyA, bodyB; ///< indices
 	bool yields; ///< slip_law.hpp; its springs are not packed
+	bool isStiff; ///< the contact solver moves its springs (spring_step.hpp)
 	JointStiffness stiffness; ///< of each spring
 	JointStrength strength;
 	Vec3 normal; ///< in the frame of A

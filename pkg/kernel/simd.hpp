@@ -149,6 +149,8 @@ inline bool lane(Lanes::Mask x, size_t i) { return x[i] != 0; }
 inline const Vec3& lane(const Vec3& v, size_t) { return v; }
 inline Vec3 lane(const Vec3s& v, size_t i) { return { v.x().v[i], v.y().v[i], v.z().v[i] }; }
 
+inline void clearLane(bool& x, size_t) { x = false; }
+inline void clearLane(Lanes::Mask& x, size_t i) { x[i] = 0; }
 inline void setLane(Lanes& x, size_t i, double one) { x.v[i] = one; }
 inline void setLane(Vec3s& v, size_t i, const Vec3& one)
 {

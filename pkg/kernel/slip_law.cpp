@@ -8,6 +8,18 @@ namespace timber {
 namespace {
 	/// Relative rounding of the stretches and forces of a backbone. [-]
 	constexpr double rounding = 1e-9;
+
+	/// Tangent stiffness of a spring along its stretch of length r, over k; 0 where its force falls. [-]
+	/// before, after: histories before and after the update to this stretch
+	double tangentAlong(const SlipLaw& law, const SlipHistory& before, const SlipHistory& after, double r)
+	{
+		const double slack = law.slackAt(after.largest).slack, grown = after.largest - before.largest,
+		             limits = after.largest - slack - before.largest + law.slackAt(before.largest).slack;
+		const double onBackbone = grown > 0 ? std::max(0., limits / grown) : 0;
+		const double friction = after.plastic == before.plastic ? 1 : onBackbone,
+		             slip = r <= slack ? 0 : grown > 0 ? onBackbone : 1;
+		return law.frictionShare * friction + (1 - law.frictionShare) * slip;
+	}
 }
 
 const char* SlipLaw::unmetBy(double stiffness, const std::vector<BackbonePoint>& points)
@@ -53,26 +65,98 @@ SlipLaw::Slack SlipLaw::slackAt(double largest) const
 	return { slack, a.limitIntegral + (a.limit() + (largest - slack)) / 2 * (slack - a.slack) };
 }
 
+double SlipLaw::largestLimit(double from, double to) const
+{
+	const auto limitAt = [this](double largest) { return largest - slackAt(largest).slack; };
+	double limit = std::max(limitAt(from), limitAt(to));
+	for (const Knot& knot : knots)
+		if (knot.stretch > from && knot.stretch < to) limit = std::max(limit, knot.limit());
+	return limit;
+}
+
+namespace {
+	/// The slip law while the largest length of the stretch grows to R.
+	struct SlipGrowth {
+		double largest; ///< R [m]
+		double limit, slack; ///< y, s at R [m]
+		double mean; ///< elastic limit while s grows, else y [m]
+		double work; ///< P at R minus P before [m2]
+	};
+
+	SlipGrowth growth(const SlipLaw& law, double before, double largest)
+	{
+		const SlipLaw::Slack now = law.slackAt(largest), then = largest > before ? law.slackAt(before) : now;
+		const double limit = largest - now.slack, slackGrowth = now.slack - then.slack,
+		             work = now.limitIntegral - then.limitIntegral;
+		return { largest, limit, now.slack, slackGrowth > 0 ? work / slackGrowth : limit, work };
+	}
+
+	/// With the largest limit between both ends in place of the last one.
+	SlipGrowth heldGrowth(const SlipLaw& law, double before, double largest)
+	{
+		const double limit = law.largestLimit(before, largest), slack = largest - limit,
+		             then = law.slackAt(before).slack, mean = (limit + before - then) / 2;
+		return { largest, limit, slack, mean, mean * (slack - then) };
+	}
+
+	/// Elastic stretch of the friction part by radial return.
+	struct RadialReturn {
+		Vec3 elastic; ///< e [m]
+		double trial; ///< its length before the return [m]
+		double flow; ///< |dp| [m]
+	};
+
+	RadialReturn radialReturn(const Vec3& trial, double limit)
+	{
+		const double length = trial.norm(), flow = std::max(0., length - limit);
+		return { flow > 0 ? Vec3(trial * (limit / length)) : trial, length, flow };
+	}
+
+	SlipForce forceOf(const SlipLaw& law, const SlipHistory& history, const Vec3& stretch, const SlipGrowth& g)
+	{
+		const double phi = law.frictionShare, k = law.stiffness, r = stretch.norm();
+		const RadialReturn part = radialReturn(stretch - history.plastic, g.limit);
+		const Vec3 plastic = part.flow > 0 ? Vec3(stretch - part.elastic) : history.plastic;
+		const double slip = std::max(0., r - g.slack), along = slip > 0 ? slip / r : 0;
+		return { k * (phi * part.elastic + (1 - phi) * along * stretch),
+			k / 2 * (phi * part.elastic.squaredNorm() + (1 - phi) * slip * slip),
+			k * (phi * g.mean * part.flow + (1 - phi) * g.work), { plastic, g.largest } };
+	}
+
+	/// Tangent of both parts, without the change of the friction part's limit across the stretch.
+	Mat3 tangentOf(const SlipLaw& law, const SlipHistory& history, const Vec3& stretch, const SlipGrowth& g)
+	{
+		const double phi = law.frictionShare, k = law.stiffness, r = stretch.norm(),
+		             slip = std::max(0., r - g.slack), grown = g.largest - history.largest,
+		             then = history.largest - law.slackAt(history.largest).slack,
+		             rise = grown > 0 ? std::max(0., (g.limit - then) / grown) : 1;
+		const Mat3 one = Mat3::Identity();
+		const Vec3 normal = r > 0 ? Vec3(stretch / r) : Vec3(Vec3::Zero());
+		const Mat3 radial = normal * normal.transpose();
+		const Vec3 trial = stretch - history.plastic;
+		const RadialReturn part = radialReturn(trial, g.limit);
+		Mat3 friction = one;
+		if (part.flow > 0)
+			friction = g.limit / part.trial * (one - trial * trial.transpose() / (part.trial * part.trial))
+			        + (grown > 0 ? rise : 0) * radial;
+		Mat3 slipping = Mat3::Zero();
+		if (slip > 0) slipping = slip / r * (one - radial) + rise * radial;
+		return k * (phi * friction + (1 - phi) * slipping);
+	}
+}
+
 SlipForce slipForce(const SlipLaw& law, const SlipHistory& history, const Vec3& stretch)
 {
 	assert(law.isValid() && isFinite(history.plastic) && history.largest >= 0 && isFinite(stretch));
-	const double phi = law.frictionShare, k = law.stiffness, r = stretch.norm();
-	const double largest = std::max(history.largest, r);
-	const SlipLaw::Slack now = law.slackAt(largest),
-	                     before = largest > history.largest ? law.slackAt(history.largest) : now;
-	const double limit = largest - now.slack, slackGrowth = now.slack - before.slack,
-	             growth = now.limitIntegral - before.limitIntegral;
-	const double mean = slackGrowth > 0 ? growth / slackGrowth : limit;
+	return forceOf(law, history, stretch, growth(law, history.largest, std::max(history.largest, stretch.norm())));
+}
 
-	Vec3 elastic = stretch - history.plastic;
-	const double trial = elastic.norm(), flow = std::max(0., trial - limit);
-	if (flow > 0) elastic *= limit / trial;
-	const Vec3 plastic = flow > 0 ? Vec3(stretch - elastic) : history.plastic;
-
-	const double slip = std::max(0., r - now.slack), along = slip > 0 ? slip / r : 0;
-	return { k * (phi * elastic + (1 - phi) * along * stretch),
-		k / 2 * (phi * elastic.squaredNorm() + (1 - phi) * slip * slip),
-		k * (phi * mean * flow + (1 - phi) * growth), { plastic, largest } };
+SlipForce heldSlipForce(const SlipLaw& law, const SlipHistory& history, const Vec3& stretch, Mat3& tangent)
+{
+	assert(law.isValid() && isFinite(history.plastic) && history.largest >= 0 && isFinite(stretch));
+	const SlipGrowth g = heldGrowth(law, history.largest, std::max(history.largest, stretch.norm()));
+	tangent = tangentOf(law, history, stretch, g);
+	return forceOf(law, history, stretch, g);
 }
 
 JointForce slipForces(const SlipLaw& law, const JointPlacement& placement, const Vec3& axis,
@@ -83,13 +167,17 @@ JointForce slipForces(const SlipLaw& law, const JointPlacement& placement, const
 	        && histories.largest.size() == springs.broken.size());
 	const Vec3 worldAxis = placement.axesA * axis;
 	JointForce total;
+	total.isKnown = true;
+	double tangents = 0, intact = 0;
 	for (size_t i = 0; i < springs.broken.size(); ++i) {
 		if (springs.broken[i]) continue;
 		const Vec3 armB = placement.axesB * springs.anchorsB[i], end = placement.distance + armB;
 		Vec3 stretch = end - placement.axesA * springs.anchorsA[i];
 		if (!worldAxis.isZero()) stretch = worldAxis.dot(stretch) * worldAxis;
-		const SlipForce f = slipForce(
-		        law, { histories.plastic[i], histories.largest[i] }, placement.axesA.transpose() * stretch);
+		const SlipHistory before { histories.plastic[i], histories.largest[i] };
+		const SlipForce f = slipForce(law, before, placement.axesA.transpose() * stretch);
+		tangents += tangentAlong(law, before, f.history, stretch.norm());
+		++intact;
 		const Vec3 force = placement.axesA * f.force;
 		springs.stretches[i] = stretch;
 		springs.forces[i] = force;
@@ -104,6 +192,7 @@ JointForce slipForces(const SlipLaw& law, const JointPlacement& placement, const
 		total.energy += f.energy;
 		total.dissipated += f.dissipated;
 	}
+	if (intact > 0) total.tangent = tangents / intact;
 	return total;
 }
 
@@ -119,6 +208,42 @@ std::vector<SpringBreak> slipBreaks(const SlipLaw& law, const JointPlacement& pl
 		        breakCause(springForce<double>(k, springs.stretches[i], placement.axesA * normal)), 0, 0 });
 	}
 	return breaks;
+}
+
+SlipSprings::SlipSprings(const SlipLaw& l, const Vec3& a, const SlipHistories& h)
+        : law(l)
+        , axis(a)
+        , histories(h)
+{
+	assert(law.isValid() && (axis.isZero(0) || isUnit(axis)));
+}
+
+SpringState SlipSprings::projected(const SlipForce& force, const Mat3& tangent) const
+{
+	SpringState state;
+	state.force = force.force;
+	state.energy = force.energy;
+	state.dissipated = force.dissipated;
+	state.tangent = axis.isZero(0) ? tangent : Mat3(axis.dot(tangent * axis) * axis * axis.transpose());
+	return state;
+}
+
+SpringState SlipSprings::trial(size_t spring, const Vec3&, const Vec3& to) const
+{
+	Mat3 tangent;
+	const SlipForce force
+	        = heldSlipForce(law, { histories.plastic[spring], histories.largest[spring] }, onAxis(to), tangent);
+	return projected(force, tangent);
+}
+
+SpringState SlipSprings::commit(size_t spring, const Vec3&, const Vec3& to)
+{
+	const SlipForce force = slipForce(law, { histories.plastic[spring], histories.largest[spring] }, onAxis(to));
+	histories.plastic[spring] = force.history.plastic;
+	histories.largest[spring] = force.history.largest;
+	SpringState state = projected(force, Mat3::Zero());
+	state.breaks = force.history.largest >= law.ultimateStretch();
+	return state;
 }
 
 } // namespace timber

@@ -85,6 +85,8 @@ public:
 		double limitIntegral; ///< P [m2]
 	};
 	Slack slackAt(double largest) const;
+	/// Largest elastic limit y while the largest length of the stretch grows between two values [m].
+	double largestLimit(double from, double to) const;
 };
 
 struct SlipHistory {
@@ -103,6 +105,10 @@ struct SlipForce {
 /// nothing.
 SlipForce slipForce(const SlipLaw& law, const SlipHistory& history, const Vec3& stretch);
 
+/// The same for a step that does not resolve the spring: a backbone that falls on the path keeps its largest force.
+/// tangent: out, of the force by the stretch [N/m].
+SlipForce heldSlipForce(const SlipLaw& law, const SlipHistory& history, const Vec3& stretch, Mat3& tangent);
+
 /// Histories of a joint's springs, one entry each.
 struct SlipHistories {
 	std::vector<Vec3>& plastic; ///< p, in the frame of A [m]
@@ -117,5 +123,21 @@ JointForce slipForces(const SlipLaw& law, const JointPlacement& placement, const
 /// Springs that have reached the ultimate stretch, in their order. They have no force and no energy left.
 std::vector<SpringBreak> slipBreaks(const SlipLaw& law, const JointPlacement& placement, const Vec3& normal,
         const JointSprings& springs, const SlipHistories& histories);
+
+/// The springs in a step that does not resolve them.
+class SlipSprings : public SpringLaw {
+	const SlipLaw& law;
+	Vec3 axis;
+	SlipHistories histories;
+
+	SpringState projected(const SlipForce& force, const Mat3& tangent) const;
+	Vec3 onAxis(const Vec3& stretch) const { return axis.isZero(0) ? stretch : Vec3(axis.dot(stretch) * axis); }
+
+public:
+	/// axis: as of slipForces(). law and histories are not copied.
+	SlipSprings(const SlipLaw&, const Vec3& axis, const SlipHistories&);
+	SpringState trial(size_t spring, const Vec3& from, const Vec3& to) const override;
+	SpringState commit(size_t spring, const Vec3& from, const Vec3& to) override;
+};
 
 } // namespace timber

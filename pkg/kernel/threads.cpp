@@ -60,10 +60,12 @@ bool hasThreads() { return count > 1 && !isInLoop; }
 /// Never destroyed: the order in which a program's threads and libraries end is not ours.
 tbb::task_arena& detail::arena()
 {
-	static tbb::task_arena* const arena = new tbb::task_arena(arenaSize());
-	static OneOpenMPThread* const observer = new OneOpenMPThread(*arena);
-	(void)observer;
-	return *arena;
+	struct Team {
+		tbb::task_arena arena { arenaSize() };
+		OneOpenMPThread observer { arena };
+	};
+	static Team* const team = new Team;
+	return team->arena;
 }
 
 detail::WithinLoop::WithinLoop()

@@ -49,8 +49,9 @@ if _host.running():
     _classes = {_name: getattr(_wrapper, _name) for _name in _class_names}
     globals().update(_classes)
 
-    from .scene import attributes as _attributes, background as _background, shown as _shown
+    from .scene import attributes as _attributes, background as _background, containers as _containers, shown as _shown
 
+    _containers.guard()
     _background.guard()
     _attributes.guard(_classes.values())
     _shown.install(_classes.values())

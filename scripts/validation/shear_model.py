@@ -12,7 +12,8 @@
   per rad, strength n F b / h, softening and ultimate drift d / b.
 * Rocking: the weight above acts on the edges, with W a / h against the drift, in full from ROCKING_DRIFT on; a is the
   distance of the edges.
-* Damping: proportional to the initial stiffness, with the joints' damping ratio in the first mode.
+* Damping: c = tau k with the tangent stiffness k of walls and column ends, never a negative one, or with the initial
+  one. tau gives the first mode at small drift, with rocking and P-delta, the house's damping ratio.
 
 Not in it: uplift and pulling out of columns, torsion, friction, vertical motion, members that come loose.
 Integration: central differences.
@@ -39,15 +40,23 @@ class SlipSpring:
         self.stiffness, self.friction_share = stiffness, friction_share
         self.drifts, self.forces = np.array([(0.0, 0.0), *points]).T
         self.largest = self.plastic = self.limit = 0.0
+        self.tangent = stiffness  # of the last step, never negative [N/rad]
 
     def shear(self, drift):
         """After a further step to this drift. [N]"""
+        rise = None  # of the elastic limit over that of the largest drift
         if abs(drift) > self.largest:
+            grown, before = abs(drift) - self.largest, self.limit
             self.largest = abs(drift)
             self.limit = float(np.interp(self.largest, self.drifts, self.forces)) / self.stiffness
-        elastic = min(max(drift - self.plastic, -self.limit), self.limit)
+            rise = max(0.0, (self.limit - before) / grown)
+        trial = drift - self.plastic
+        elastic = min(max(trial, -self.limit), self.limit)
         self.plastic = drift - elastic
         slip = copysign(max(0.0, abs(drift) - (self.largest - self.limit)), drift)
+        friction_rise = 1.0 if elastic == trial else rise or 0.0
+        slip_rise = 0.0 if slip == 0 else 1.0 if rise is None else rise
+        self.tangent = self.stiffness * (self.friction_share * friction_rise + (1 - self.friction_share) * slip_rise)
         return self.stiffness * (self.friction_share * elastic + (1 - self.friction_share) * slip)
 
 
@@ -71,15 +80,24 @@ class Storey:
         return sum(spring.stiffness for spring in self.springs) / self.height
 
 
+    def tangent(self):
+        """Of the springs after the last step. [N/m]"""
+        return sum(spring.tangent for spring in self.springs) / self.height
+
+    def at_rest(self):
+        """Stiffness at small drift, of springs, rocking and P-delta. [N/m]"""
+        return self.stiffness() + self.weight * (self.edges / self.height / ROCKING_DRIFT - 1) / self.height
+
+
 def slip_spring(stiffness, strength, friction_share, softening, ultimate):
     """Bilinear SlipSpring with loss of strength: [N/rad], [N], [-], drifts [rad]."""
     points = [(strength / stiffness, strength), (softening, strength), (ultimate, 0.0)]
     return SlipSpring(stiffness, friction_share, points)
 
 
-def stiffness_matrix(storeys):
-    """Of the initial stiffnesses. [N/m]"""
-    k = np.array([storey.stiffness() for storey in storeys])
+def stiffness_matrix(storeys, of=Storey.stiffness):
+    """Of the stiffnesses `of` the storeys. [N/m]"""
+    k = np.array([of(storey) for storey in storeys])
     matrix = np.diag(k + np.append(k[1:], 0.0))
     return matrix - np.diag(k[1:], 1) - np.diag(k[1:], -1)
 
@@ -90,15 +108,22 @@ def first_period(storeys):
     return 2 * np.pi / np.sqrt(omega2[0])
 
 
-def response(storeys, acceleration, dt, damping_ratio):
+def damping_time(storeys, ratio):
+    """tau, with which the first mode at small drift has a damping ratio; 0 if it is unstable. [s]"""
+    mass = np.diag([storey.mass for storey in storeys])
+    omega2, shapes = eigh(stiffness_matrix(storeys, Storey.at_rest), mass)
+    first = shapes[:, 0]
+    return 2 * ratio * np.sqrt(max(0.0, omega2[0])) / (first @ stiffness_matrix(storeys) @ first)
+
+
+def response(storeys, acceleration, dt, damping_ratio, damped=Storey.tangent):
     """(times [s], drifts (n, storeys) [rad]) to the end of the motion or to LIMIT.
 
-    acceleration: of the ground [m/s2], one sample every dt [s]
+    acceleration: of the ground [m/s2], one sample every dt [s]; damped: stiffness of the dashpots, Storey.stiffness for
+    the initial one
     """
     mass, heights = np.array([s.mass for s in storeys]), np.array([s.height for s in storeys])
-    damping = damping_ratio * first_period(storeys) / np.pi * stiffness_matrix(storeys)
-    left = np.linalg.inv(np.diag(mass) / STEP**2 + damping / (2 * STEP))
-    before, back = 2 * np.diag(mass) / STEP**2, damping / (2 * STEP) - np.diag(mass) / STEP**2
+    tau, inertia = damping_time(storeys, damping_ratio), np.diag(mass) / STEP**2
     times = np.arange(0.0, dt * (len(acceleration) - 1), STEP)
     ground = np.interp(times, dt * np.arange(len(acceleration)), acceleration)
     last = now = np.zeros(len(storeys))
@@ -110,5 +135,6 @@ def response(storeys, acceleration, dt, damping_ratio):
             return times[:step + 1], drifts[:step + 1]
         shear = np.array([storey.shear(g) for storey, g in zip(storeys, drift)])
         force = -mass * a - shear + np.append(shear[1:], 0.0)
-        last, now = now, left @ (force + before @ now + back @ last)
+        damping = tau * stiffness_matrix(storeys, damped) / (2 * STEP)
+        last, now = now, np.linalg.solve(inertia + damping, force + 2 * inertia @ now + (damping - inertia) @ last)
     return times, drifts

@@ -24,7 +24,7 @@ template <class Law> struct Spring {
 	void step(double overlap, double approach, const Vec3& slide, const Vec3& spin = Vec3::Zero(),
 	        const Vec3& normal = Vec3::UnitZ())
 	{
-		const ContactPoint point { {}, Vec3::Zero(), normal, overlap };
+		const ContactPoint point { {}, {}, Vec3::Zero(), normal, overlap };
 		elasticStep<Law, ContactPoint, double>(
 		        law, pair, point, { (slide - approach * normal) / dt, spin }, dt, form, state);
 	}

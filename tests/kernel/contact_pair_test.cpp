@@ -199,6 +199,19 @@ TEST(InitialOverlap, IsTheWholeOverlapOfBodiesPlacedInContact)
 	}
 }
 
+/// Bodies that are placed in contact and approach each other: an overlap that the approach in a step explains begins an
+/// impact, and has no energy of its own.
+TEST(InitialOverlap, OfBodiesPlacedInApproach)
+{
+	for (const double share : { 0.5, 1.5 }) {
+		std::vector<PointRecord> records;
+		EXPECT_EQ(step({ pointOf(vertex, overlap) }, records, share * overlap / h, true), 0);
+		expectOverlap(records[0], overlap, overlap);
+		EXPECT_EQ(records[0].impact.isPending(), share > 1);
+		EXPECT_NEAR(records[0].normalStored, share > 1 ? 0 : law.energy(overlap), 1e-12 * law.energy(overlap));
+	}
+}
+
 /// A point with an excess separates and is loaded again. In the increment form its force starts at zero, and it has no
 /// impacts; in the closed form the next touch is one.
 TEST(Separation, EndsForceAndImpact)

@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <kernel/joint_modes.hpp>
+#include <limits>
 
 namespace timber::shapes {
 
@@ -17,7 +18,7 @@ struct Joint {
 	std::vector<Vec3> points; ///< [m]
 	JointStiffness stiffness;
 	Vec3 normal = Vec3::UnitZ();
-	double ratio = 0.05;
+	JointDamping damping { 0.05 };
 	std::vector<int> broken = std::vector<int>(points.size(), 0);
 };
 
@@ -31,7 +32,13 @@ inline JointState stateOf(const Joint& j)
 struct Assembly {
 	std::vector<SolverBody> bodies;
 	std::vector<Joint> joints;
-	std::vector<NewmarkHistory> history = {}; ///< of the joints
+	/// Springs of a stiff joint from step to step.
+	struct Springs {
+		std::vector<Vec3> half, forces; ///< z, F [m, N]
+		double account = 0; ///< [J]
+	};
+	std::vector<Springs> history = {}; ///< of the joints
+	Vector displacements = {}; ///< x; empty: zero
 
 	size_t size() const { return 6 * bodies.size(); }
 	/// Zero for a fixed body.
@@ -88,14 +95,16 @@ struct Assembly {
 	}
 	Matrix damping() const
 	{
-		return ofModes([](const Joint& joint, double square) { return 2 * joint.ratio * std::sqrt(square); });
+		return ofModes(
+		        [](const Joint& joint, double square) { return joint.damping.of(std::sqrt(square)); });
 	}
-	Matrix newmark(double h) const
+	/// Mass of the implicit springs of stiff joints: h2 K / 4.
+	Matrix stiffMass(double h) const
 	{
-		return ofModes([h](const Joint&, double square) {
-			const double y = h * h * square;
-			return y > stiffPhase * stiffPhase ? y * y / (4 * y + 2) : 0;
-		});
+		Matrix matrix = Matrix::Zero(size(), size());
+		for (const Joint& joint : joints)
+			if (modesOf(joint).isStiff(h)) matrix += h * h / 4 * stiffness(joint);
+		return matrix;
 	}
 	Vector velocities() const
 	{
@@ -128,44 +137,75 @@ struct Assembly {
 		return jointModes(bodies[j.a], bodies[j.b], Mat3::Identity(),
 		        { anchors, j.broken, j.stiffness, j.normal }, stateOf(j));
 	}
-	/// Newmark's terms as after a step of h [s] that has led to the present velocities.
-	void startNewmark(double h)
+	/// Six numbers of the motion of a joint's bodies as a rate of the stretch of a spring, or its change.
+	Vec3 stretchOf(const Joint& j, size_t spring, const Vector& x) const
 	{
+		const auto motion = [&](int body) {
+			return Vec3(x.segment<3>(6 * body)
+			        + Vec3(x.segment<3>(6 * body + 3)).cross(j.points[spring] - bodies[body].position));
+		};
+		return motion(j.b) - motion(j.a);
+	}
+	/// History of the stiff joints as after a step of h [s] that has led to the present velocities.
+	void startSprings(double h)
+	{
+		const Vector zero = Vector::Zero(size()), x = displacements.size() > 0 ? displacements : zero,
+		             middle = x - h / 2 * velocities();
 		history.clear();
 		for (const Joint& j : joints) {
-			const SolverBody &a = bodies[j.a], &b = bodies[j.b];
-			const JointModes modes = modesOf(j);
-			const Vec3 arm = modes.centre, other = a.position + arm - b.position;
-			Vec6 w;
-			w << b.newVelocity + b.newSpin.cross(other) - a.newVelocity - a.newSpin.cross(arm),
-			        b.newSpin - a.newSpin;
-			const Vec6 eta = modes.modes.transpose() * w;
-			const Vec6 g = modes.frequencies.unaryExpr([h](double omega) {
-				const double y = h * h * omega * omega;
-				return y > stiffPhase * stiffPhase ? y * y / (4 * y + 2) : 0;
-			});
-			const Vec6 momentum = modes.modes * g.cwiseProduct(eta);
-			history.push_back({ eta.dot(g.cwiseProduct(eta)) / 2, momentum.head<3>(), momentum.tail<3>() });
+			history.emplace_back();
+			for (size_t i = 0; i < j.points.size(); ++i) {
+				const Vec3 z = stretchOf(j, i, middle);
+				history.back().half.push_back(z);
+				history.back().forces.push_back(Vec3::Zero());
+				if (!j.broken[i])
+					history.back().account += springForce<double>(j.stiffness, z, j.normal).energy;
+			}
 		}
 	}
-	/// The dashpots of one step. Returns the dissipated energy.
+	/// Springs of a stiff joint, by whose explicit forces accelerate() has accelerated the bodies already.
+	SpringSteps springSteps(const Joint& j, const Springs& from, const JointModes& modes, double h) const
+	{
+		const Vector x = displacements.size() > 0 ? displacements : Vector(Vector::Zero(size()));
+		std::vector<SpringStep> steps;
+		for (size_t i = 0; i < j.points.size(); ++i) {
+			const Vec3 stretch = stretchOf(j, i, x);
+			if (!j.broken[i])
+				steps.push_back({ i, from.half[i], stretch,
+				        springForce<double>(j.stiffness, stretch, j.normal).force,
+				        modes.rates(j.points[i] - bodies[j.a].position), from.forces[i] });
+		}
+		const JointStrength none { std::numeric_limits<double>::infinity(), false };
+		return { std::make_unique<BrittleSprings>(j.stiffness, none, j.normal), steps, from.account, h };
+	}
+	/// Dashpots of one step, and the springs of stiff joints beside explicit ones. Returns the dissipated energy.
 	double damp(double h, int sweeps = 50, double tolerance = 1e-14)
 	{
 		ContactSolver solver;
 		std::vector<JointModes> modes(joints.size());
-		history.resize(joints.size());
+		if (history.empty()) {
+			startSprings(0);
+			for (Springs& s : history)
+				s.account = 0;
+		}
 		solver.begin(bodies, h, sweeps);
 		for (size_t k = 0; k < joints.size(); ++k) {
 			const Joint& j = joints[k];
 			modes[k] = modesOf(j);
 			solver.addJoint(j.a, j.b);
-			solver.prepareJoint(k, modes[k], Mat3::Identity(), j.ratio, history[k]);
+			ModalConstraint& c = solver.prepareJoint(k, modes[k], Mat3::Identity(), j.damping);
+			if (sweeps > 0 && modes[k].isStiff(h)) addSprings(c, springSteps(j, history[k], modes[k], h));
 		}
 		solver.solve(tolerance);
 		double dissipated = 0;
 		for (size_t k = 0; k < joints.size(); ++k) {
-			dissipated += solver.joint(k).dissipated;
-			history[k] = solver.joint(k).history;
+			const ModalConstraint& c = solver.joint(k);
+			dissipated += c.dissipated + c.springs.dissipated;
+			history[k].account = c.springs.account;
+			for (const SpringStep& s : c.springs.springs) {
+				history[k].half[s.spring] = s.stretch;
+				history[k].forces[s.spring] = s.force;
+			}
 		}
 		return dissipated;
 	}
@@ -174,9 +214,11 @@ struct Assembly {
 	{
 		const Matrix W = inverseMass(), K = stiffness();
 		Vector x = x0;
-		history.clear();
+		displacements = x0;
 		setVelocities(v0 + h / 2 * W * (K * x0 + damping() * v0)); // half a step earlier
+		startSprings(h);
 		for (int k = 0; k < steps; ++k) {
+			displacements = x;
 			accelerate(-h * W * (K * x));
 			damp(h, 10000, tolerance);
 			x += h * velocities();
@@ -202,7 +244,7 @@ inline std::vector<Vec3> square(const Vec3& centre, double x, double y)
 inline Assembly oscillator(double ratio)
 {
 	Assembly assembly { { body(0, Vec3::Zero()), member(8, { 0.5, 0.7, 0.02 }, Vec3::Zero()) }, {} };
-	assembly.joints.push_back({ 0, 1, square(Vec3::Zero(), 0.06, 0.05), { 60000, 40000 }, Vec3::UnitZ(), ratio });
+	assembly.joints.push_back({ 0, 1, square(Vec3::Zero(), 0.06, 0.05), { 60000, 40000 }, Vec3::UnitZ(), { ratio } });
 	return assembly;
 }
 
@@ -212,9 +254,9 @@ inline Assembly chain(double ratio)
 	Assembly assembly { { body(0, Vec3::Zero()), member(10, { 6, 6, 0.02 }, { 0, 0, 1.4 }),
 		                    member(30, { 0.1, 40, 40 }, { 1, 0.1, 2.9 }) },
 		{} };
-	assembly.joints.push_back({ 0, 1, square({ 0, 0, 0 }, 0.05, 0.05), { 58800, 58800 }, Vec3::UnitZ(), ratio });
+	assembly.joints.push_back({ 0, 1, square({ 0, 0, 0 }, 0.05, 0.05), { 58800, 58800 }, Vec3::UnitZ(), { ratio } });
 	assembly.joints.push_back(
-	        { 1, 2, square({ 0, 0, 2.8 }, 0.05, 0.06), { 58800, 30000 }, Vec3(0.6, 0, 0.8), ratio });
+	        { 1, 2, square({ 0, 0, 2.8 }, 0.05, 0.06), { 58800, 30000 }, Vec3(0.6, 0, 0.8), { ratio } });
 	return assembly;
 }
 
@@ -231,12 +273,13 @@ struct MassOnSpring {
 	double mass, k; ///< [kg, N/m]
 	double x = 0; ///< displacement [m]
 	Assembly assembly { { body(0, Vec3::Zero()), body(mass, Vec3::Zero()) },
-		{ { 0, 1, { Vec3::Zero() }, { k, k }, Vec3::UnitZ(), 0 } }, {} };
+		{ { 0, 1, { Vec3::Zero() }, { k, k }, Vec3::UnitZ(), { 0 } } }, {} };
 
 	double omega() const { return std::sqrt(k / mass); }
 	double& velocity() { return assembly.bodies[1].newVelocity.z(); }
 	void step(double h)
 	{
+		assembly.displacements = (Vector(12) << Vector::Zero(8), x, Vector::Zero(3)).finished();
 		assembly.accelerate((Vector(12) << Vector::Zero(8), -h * k * x / mass, Vector::Zero(3)).finished());
 		assembly.damp(h);
 		x += h * velocity();

@@ -138,11 +138,15 @@ TEST(CoincidentVertices, TwoNormalsAreTwoContacts)
 	}
 }
 
-/// Corner exactly on corner: the normal is undefined, and there is no point.
+/// Corner of a core exactly on a corner: the shortest connection has no direction. The point of the cores has that of a
+/// separating axis.
 TEST(CoincidentVertices, CornerExactlyOnCorner)
 {
 	const auto cube = roundedBox({ 1, 1, 1 }, 0.125);
-	EXPECT_TRUE(contacts(cube, cube, {}, { Vec3::Constant(0.75), Quat::Identity() }, { true, false }).empty());
+	const auto points = contacts(cube, cube, {}, { Vec3::Constant(0.75), Quat::Identity() }, { true, false });
+	ASSERT_EQ(points.size(), 1u);
+	EXPECT_EQ(points[0].id.kind(), FeatureKind::CoreCore);
+	EXPECT_EQ(points[0].overlap, 0.25);
 }
 
 /// Equal boxes displaced along one side by less and more than the tolerance: always four points.

@@ -27,7 +27,7 @@ from yade_timber.scene.engines import find_engine
 
 O = yw.Omega()
 
-DISSIPATED = ("dashpot_normal", "dashpot_shear", "friction", "broken_springs", "joint_dashpot", "joint_yield")
+DISSIPATED = ("dashpot_normal", "dashpot_shear", "friction", "crushing", "broken_springs", "joint_dashpot", "joint_yield")
 """Terms of `yt.energy` that cannot fall. `lost_contacts` counts energy given to new points with the opposite sign."""
 CREATED, NEGATIVE, CHANGE = 1e-4, 1e-9, 1e-9
 """Bounds of a sound run over the energy put in [-]: negative dissipation of single points and joints, fall of a

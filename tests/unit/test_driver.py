@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # runner: python
 """Runs of the driver: only missing ones are done, and none is taken that was made from something else."""
+import json
 import os
 import sys
 
@@ -51,11 +52,19 @@ def test_only_missing_runs_are_done(tmp_path, monkeypatch):
     assert done[tasks[2]] == old and said[0].startswith("2 of 3 ")
 
 
+def test_a_run_that_ended_without_its_driver_is_recorded(tmp_path):
+    """Its summary is there, run.json is not: the driver was killed."""
+    task = Task("run", tmp_path, RunOptions(house="A"))
+    sample_summary(made_from=made_from(task.options)).write(tmp_path)
+    assert run_missing([task], tmp_path)[task] is not None
+    assert json.loads((tmp_path / driver.END).read_text()) == {"status": "done", "error": None}
+
+
 def test_a_pipe_as_log_is_refused(tmp_path, monkeypatch):
     monkeypatch.setattr(driver, "command", lambda script: [sys.executable, str(script)])
     scripts = fake_script(tmp_path, WRITES)
     os.mkfifo(tmp_path / driver.LOG)
-    with pytest.raises(RunError, match="run.log: no regular file"):
+    with pytest.raises(RunError, match="run.log: not a regular file"):
         run_missing([Task("run", tmp_path, RunOptions(house="A"))], scripts, 1, print)
 
 

@@ -124,12 +124,12 @@ def test_faces_are_closed_and_outward(scene):
 def test_joints(scene):
     whole, torn = scene["joints"]
     described = {
-        "elements": [1, 0], "stiffness": [3e4, 2e4], "strength": None, "reading": "joint", "damping_ratio": 0.0,
+        "elements": [1, 0], "stiffness": [3e4, 2e4], "strength": None, "reading": "joint", "damping_ratio": 0.0, "damping_time": 0.0, "initial_damping": False,
         "broken": [False] * 3, "kind": "foot", "name": "foot 1", "slip": None
     }
     assert {key: whole[key] for key in described} == described
     described = {
-        "elements": [0, 1], "stiffness": [4e4, 5e4], "strength": 600.0, "reading": "spring", "damping_ratio": 0.05,
+        "elements": [0, 1], "stiffness": [4e4, 5e4], "strength": 600.0, "reading": "spring", "damping_ratio": 0.05, "damping_time": 0.0, "initial_damping": False,
         "broken": [False, True], "kind": "", "name": "", "slip": None
     }
     assert {key: torn[key] for key in described} == described and torn["broken"][1] is True  # no 1

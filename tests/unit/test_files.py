@@ -11,9 +11,7 @@ from pathlib import Path
 import pytest
 from yade_timber.base.atomic_write import (make_folder, remove, remove_parts, write_text, written_from_memory,
                                            written_whole)
-from yade_timber.base.errors import RunError
 from yade_timber.base.lock import is_locked, locked
-from yade_timber.base.input_file import require_regular
 from yade_timber.base.table import csv_text
 
 
@@ -150,13 +148,6 @@ def test_one_process_a_folder(tmp_path):
     with locked(tmp_path) as first, locked(tmp_path) as second:
         assert first and not second and is_locked(tmp_path)
     assert not is_locked(tmp_path)
-
-
-@pytest.mark.parametrize("make", [os.mkfifo, os.mkdir, lambda path: path.symlink_to("/dev/zero"), lambda path: None])
-def test_only_regular_files_are_read(tmp_path, make):
-    make(tmp_path / "x")
-    with pytest.raises(RunError, match="x: "):
-        require_regular(tmp_path / "x")
 
 
 def test_numbers_in_tables():

@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The entry `law` of a house file decides the engines."""
+import math
+
 import pytest
 import yade.wrapper as yw
 from yade import O
 from yade_timber.base.gravity import GRAVITY
 from yade_timber.house import friction
+from yade_timber.house.errors import HouseError
 from yade_timber.run.identity import identity, made_from
 from yade_timber.run.options import RunOptions
 from yade_timber.scene import engines, scenario
@@ -29,11 +32,17 @@ def test_default_friction():
 
 def test_defaults(tmp_path):
     geometry, law, _, _ = built(tmp_path, "{}")
-    assert (geometry.flushSupports, geometry.vertexEdge, law.increment) == (True, False, False)
+    assert (geometry.flushSupports, geometry.vertexEdge, law.increment) == (True, True, False)
+
+
+def test_the_houses_of_the_paper_keep_its_contacts():
+    for model, extra in (("A", False), ("C2", False), ("storehouse", True)):
+        scenario.build(scenario.Scenario("law", model))
+        assert engines.find_engine(yw.ContactLoop).loop.geomDispatcher.functors[0].vertexEdge == extra
 
 
 @pytest.mark.parametrize("entry, attribute", [("flush_supports: false", "flushSupports"),
-                                              ("vertex_edge_contacts: true", "vertexEdge")])
+                                              ("vertex_edge_contacts: false", "vertexEdge")])
 def test_contact_patterns(tmp_path, entry, attribute):
     """The identity differs, so a checkpoint of one variant is refused by a run of the other."""
     plain, _, _, one = built(tmp_path, "{}")
@@ -48,6 +57,22 @@ def test_flush_members_have_fewer_supports_without_them(tmp_path):
 
 def test_increment_form(tmp_path):
     assert built(tmp_path, "{hertz: increment}")[1].increment
+
+
+@pytest.mark.parametrize("entry, strength", [("{}", 6e6), ("{bearing: false}", math.inf), ("{bearing: 8.0e6}", 8e6)])
+def test_bearing_strength(tmp_path, entry, strength):
+    """Of all timber; no house yields at rest."""
+    built(tmp_path, entry)
+    timber = {body.material.bearing for body in O.bodies if isinstance(body.material, yw.TimberMat)}
+    assert timber == {strength}
+    O.run(200, True)
+    assert engines.find_engine(yw.ContactForces).crushing == 0
+
+
+@pytest.mark.parametrize("entry", ["true", "0", "yes please", "7.8"])
+def test_bearing_strength_that_is_none(tmp_path, entry):
+    with pytest.raises(HouseError, match="bearing: .*(or false|Pa)"):
+        built(tmp_path, f"{{bearing: {entry}}}")
 
 
 def test_loads_are_mass_of_the_bodies(tmp_path):

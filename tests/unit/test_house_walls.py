@@ -13,6 +13,7 @@ import yaml
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
+from yade_timber.house.diagnosis import diagnose
 from yade_timber.house import HouseError, build_house, changed_house, free_wall_bays, load_house, weigh
 from yade_timber.house.nails import nailed_wall
 
@@ -116,6 +117,9 @@ NAILS = ("{k: 4.83e5, Pv: 1130, dv: 2.3e-3, du: 0.017, spacing: 0.075, height: 3
          "board: {width: 0.91, heights: [1.82, 0.91], thickness: 0.012, shear_modulus: 3.92e8}}")
 """Printed example of the book named in house/nails.py. Not printed there: boards of 3 x 6 and 3 x 3 shaku, nails 10 mm
 from their edges, plywood of 12 mm and 392 N/mm2. Its results follow from them."""
+SAWS = ("{F0: 8000, FI: 1200, DU: 0.015, S0: 5.0e6, R1: 0.058, R2: -0.05, R3: 1, R4: 0.02, alpha: 0.6, beta: 1.1, "
+        "length: 2, height: 2.5}")
+"""Set of OpenSees' example; length and height are chosen."""
 
 
 def test_printed_example_of_nails(tmp_path):
@@ -162,6 +166,79 @@ def test_own_wall_type(tmp_path):
         11500 * 0.91 / 2), pytest.approx(8e5 * 0.91 / 2 / 2.73), 0.1)
 
 
+ONE = "{along: x, at: 0, from: 0, to: 1, type: a, storeys: 1}"
+
+
+def test_cycles_of_a_type(tmp_path):
+    """Defaults, own values, and the law slip with a friction share; forces are those of half the bay."""
+    part = 0.91 / 2
+    joint, = sheets(house(tmp_path, ONE, "{a: {multiplier: 1}}"))
+    assert (joint.law, joint.cycles.friction_force) == ("wall", pytest.approx(0.1 * 2.8 * 1960 * part))
+    assert (joint.cycles.reload_share, joint.cycles.reload_target) == (0.65, 1.1)
+    own, = sheets(house(tmp_path, ONE, "{a: {multiplier: 1, friction_force: 300, reload_share: 0.5, reload_target: 1}}"))
+    assert (own.cycles.friction_force, own.cycles.reload_share, own.cycles.reload_target) == (
+        pytest.approx(300 * part), 0.5, 1.0)
+    slip, = sheets(house(tmp_path, ONE, "{a: {multiplier: 1, friction_share: 0.2}}"))
+    assert (slip.law, slip.friction_share, slip.cycles) == ("slip", 0.2, None)
+
+
+def test_published_set(tmp_path):
+    """Backbone, slopes and friction of a set, scaled from its wall of 2 m x 2.5 m to half a bay."""
+    joint, = sheets(house(tmp_path, ONE, f"{{a: {{saws: {SAWS}}}}}"))
+    part, lever = 0.91 / 2 / 2, 2.73 / 2.5
+    assert joint.kn == pytest.approx(5e6 * part / lever) and joint.cycles.friction_force == pytest.approx(1200 * part)
+    assert joint.cycles.pinched_stiffness == pytest.approx(0.02 * joint.kn)
+    assert joint.cycles.reload_stretch == pytest.approx(8 / 5e3 * lever) and joint.cycles.reload_power == 0.6
+    d, force = np.array(joint.envelope).T
+    d, force = d / lever, force / part
+    curve = (8000 + 0.058 * 5e6 * d) * (1 - np.exp(-5e6 * d / 8000))
+    assert force[:-1] == pytest.approx(curve[:-1], rel=1e-12) and force[-1] == 0
+    assert d[-2] == pytest.approx(0.015) and d[-1] - 0.015 == pytest.approx(curve[-2] / 0.05 / 5e6)
+
+
+def test_residual_strength(tmp_path):
+    """The falling line ends at the residual shear; points below it are left out."""
+    points = "[[0.01, 4000], [0.03, 5000], [0.05, 2000], [0.08, 500]]"
+    joint, = sheets(house(tmp_path, ONE, f"{{a: {{envelope: {points}, residual_share: 0.3}}}}"))
+    assert np.ravel(drifts_and_shears(joint)) == pytest.approx([0.01, 4000, 0.03, 5000, 0.05, 2000, 0.06, 1500])
+
+
+def test_finishes_are_taken_off(tmp_path):
+    """No rule counts them, and one word removes them."""
+    line = "{along: x, at: 0, from: 0, to: 3, type: [plywood, siding]}"
+    model = house(tmp_path, line)
+    assert model.multipliers["siding"] == 0 and {joint.type for joint in sheets(model)} == {"plywood", "siding"}
+    own = tmp_path / "bare.yaml"
+    own.write_text("extends: own.yaml\nfinishes: false\n")
+    bare = build_house(load_house(own))
+    assert {joint.type for joint in sheets(bare)} == {"plywood"}
+    assert diagnose(bare)["wall_quantity_ratio"] == diagnose(model)["wall_quantity_ratio"]
+
+
+def test_walls_that_cover_a_part_of_the_height(tmp_path):
+    """0.6 times the share of the height; not counted."""
+    line = "{along: x, at: 4, from: 0, to: 1, type: plywood, storeys: 1%s}"
+    whole, part = (house(tmp_path, line % end) for end in ("", ", panel: 0.5"))
+    assert sheets(part)[0].strength == pytest.approx(0.3 * sheets(whole)[0].strength)
+    assert sheets(part)[0].name.endswith("0-1.plywood.panel.beams")
+    quantity = [diagnose(model)["structures"]["main"]["storeys"]["1"]["directions"]["ew"]["wall_quantity_m"]
+                for model in (part, build_house(load_house("C")))]
+    assert quantity[0] == quantity[1]
+
+
+def test_hold_down(tmp_path):
+    """One spring at the axis of the column, with all of the fitting's strength."""
+    path = tmp_path / "held.yaml"
+    path.write_text("extends: tiled_house\nname: held\njoints: {column_ends: {type: hold_down, number: 2, share: 0.67}}\n")
+    model = build_house(load_house(path))
+    joints = [joint for joint in model.joints if joint.type == "hold_down"]
+    assert joints and all(joint.points.shape == (1, 3) for joint in joints)
+    for joint in joints:
+        column = model.element(joint.a)
+        assert joint.points[0][:2] == pytest.approx(column.solid.centroid[:2], abs=1e-9)
+    assert sum(j.strength for j in joints if j.a == joints[0].a and j.end == "bottom") == pytest.approx(26800)
+
+
 def test_several_sheets_of_a_bay(tmp_path):
     model = house(tmp_path, "{along: x, at: 0, from: 0, to: 2, type: [plywood, mortar, gypsum], opening: window}")
     assert len(sheets(model)) == 12 and model.counts()["walls"] == 4
@@ -181,7 +258,7 @@ def test_walls_of_a_leaning_house(tmp_path):
 def test_the_tiled_house():
     model = build_house(load_house("tiled_house"))
     assert 2.5 < weigh(model)["per_floor_area_kn_m2"] < 3.0
-    assert model.counts()["braces"] == 0 and model.counts()["walls"] == 64
+    assert model.counts()["braces"] == 0 and model.counts()["walls"] == 72
     layers = len(sheets(model))
     assert model.counts()["joints"] == len(model.joints) - 2 * layers
     assert f" joints, {layers} wall sheets, " in repr(model)
@@ -228,8 +305,29 @@ MISTAKES = {
         "0.01", "must ascend"
     ]),
     "two forms": (
-        "{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {multiplier: 2, envelope: [[0.01, 5000], [0.1, 0]]}}", [
-            "own.yaml:3", "give one of"
+        "{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {nails: %s, envelope: [[0.01, 5000], [0.1, 0]]}}" % NAILS, [
+            "own.yaml:3", "give one of envelope, nails, saws"
+        ]),
+    "friction in kN": (
+        "{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {multiplier: 1, friction_force: 20000}}", [
+            "wall_types.a.friction_force", "below the largest shear", "N/m"
+        ]),
+    "two laws": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {multiplier: 1, friction_share: 0.2, reload_share: 0.5}}",
+                 ["wall_types.a.reload_share", "does not go with friction_share"]),
+    "residual of slip": (
+        "{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {multiplier: 1, friction_share: 0.2, residual_share: 0.3}}", [
+            "wall_types.a.residual_share", "friction_share"
+        ]),
+    "set in kN": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {saws: %s}}" % SAWS.replace("8000", "8"), [
+        "wall_types.a.saws.F0", "8 kN = 8000"
+    ]),
+    "set without a peak": (
+        "{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {saws: %s}}" % SAWS.replace("DU: 0.015", "DU: 0.0012"), [
+            "wall_types.a.saws", "F0 / S0"
+        ]),
+    "set with own friction": (
+        "{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {friction_force: 100, saws: %s}}" % SAWS, [
+            "'friction_force' does not go with saws"
         ]),
     "points descend": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[0.02, 5000], [0.01, 6000]]}}", [
         "own.yaml:3", "the drifts must ascend"

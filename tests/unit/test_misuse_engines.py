@@ -224,16 +224,17 @@ def test_material_replaced_in_a_deep_contact():
     assert O.interactions[plate, block].phys.friction == pytest.approx(0.1)
 
 
-@pytest.mark.parametrize("spin", [0, 20])
-def test_spinning_body_was_not_placed(spin):
-    """Its points move fast, though its centre is at rest: the overlap brings no energy."""
+@pytest.mark.parametrize("velocity, spin, placed", [(0, 0, True), (0, 20, True), (0.4, 0, True), (-0.4, 0, True),
+                                                    (-0.6, 0, False)])
+def test_moving_body_that_is_placed(velocity, spin, placed):
+    """Its overlap has energy, unless the approach in a step explains it."""
     O.reset()
     O.bodies.append(yt.box((3, 3, 0.2), (0, 0, -0.1), fixed=True))
     beam = O.bodies[O.bodies.append(yt.box((2, 0.1, 0.1), (0, 0, 0.05 - 5e-5)))]
     O.dt, O.engines = 1e-4, yt.engines()
-    yt.set_velocity(beam, (0, 0, 0), (0, 0, spin))
+    yt.set_velocity(beam, (0, 0, velocity), (0, 0, spin))
     O.step()
-    assert (find_engine(yw.ContactForces).placed > 0) == (spin == 0)
+    assert (find_engine(yw.ContactForces).placed > 0) == placed
 
 
 def test_level_without_bodies():

@@ -69,15 +69,41 @@ def test_periods_of_two_equal_storeys():
 
 @pytest.mark.parametrize("weight", [0.0, 3e5])
 def test_response_is_that_of_an_oscillator(weight):
-    """With P-delta the stiffness is k - W / h. Tolerance: second order in the step, observed 3e-4."""
+    """With P-delta the stiffness is k - W / h, also of the damping ratio. Tolerance: second order in the step, observed 3e-4."""
     mass, stiffness, dt = 1e4, 1e6, 0.01
     time = np.arange(0, 8, dt)
     ground = np.sin(2 * np.pi * time / 0.9)
     times, drifts = shear.response([elastic_storey(mass, stiffness, weight)], ground, dt, 0.05)
-    damping = 2 * 0.05 * np.sqrt(stiffness / mass)
+    damping = 2 * 0.05 * np.sqrt((stiffness - weight / HEIGHT) / mass)
     system = ([[0, 1], [-(stiffness - weight / HEIGHT) / mass, -damping]], [[0], [-1]], [[1, 0]], [[0]])
     expected = lsim(system, np.interp(times, time, ground), times)[1]
     assert np.abs(drifts[:, 0] * HEIGHT - expected).max() < 2e-3 * np.abs(expected).max()
+
+
+def test_the_first_mode_has_the_damping_ratio():
+    """Three storeys that rock and have P-delta: eigenvalues -zeta omega +- i omega_d of the damped system."""
+    storeys = [shear.Storey(1e4, HEIGHT, weight, 0.09, [wall(), wall()]) for weight in (3e5, 2e5, 1e5)]
+    mass, stiffness = 1e4, shear.stiffness_matrix(storeys, shear.Storey.at_rest)
+    damping = shear.damping_time(storeys, 0.02) * shear.stiffness_matrix(storeys)
+    system = np.block([[np.zeros((3, 3)), np.eye(3)], [-stiffness / mass, -damping / mass]])
+    slowest = min(np.linalg.eigvals(system), key=abs)
+    # damping that is not proportional to the stiffness: error of second order
+    assert -slowest.real / abs(slowest) == pytest.approx(0.02, rel=2e-3)
+
+
+@pytest.mark.parametrize("drift, back, tangent", [
+    (0.005, 0.0, 1.0),      # elastic
+    (0.04, 0.0, 0.0),       # on the plateau
+    (0.075, 0.0, 0.0),      # loses strength
+    (0.04, -1e-4, 1.0),     # unloads
+    (0.04, -0.015, 0.2),    # in the slack, friction part elastic
+    (0.04, -0.03, 0.0),     # in the slack, friction part slides
+])
+def test_tangent_stiffness_is_never_negative(drift, back, tangent):
+    spring = wall()
+    for g in (*np.linspace(0, drift, 200), *([drift + back / 2, drift + back] if back else [])):
+        spring.shear(g)
+    assert spring.tangent == pytest.approx(tangent * 1e6, abs=1e-6)
 
 
 def test_a_storey_fails_where_its_weight_overcomes_its_walls():

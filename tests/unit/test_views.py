@@ -194,3 +194,13 @@ def test_far_wreckage_does_not_shrink_the_house():
     left, right, _, _ = views.box_of(FRONT, start, [[cube((0, 100, 0.5))]])
     assert -0.5 - views.BORDER - views.GRID < left <= -0.5 - views.BORDER
     assert 0 <= right - (0.5 + views.FAR + views.BORDER) < views.GRID
+
+
+@pytest.mark.parametrize("count, strays", [(5, 1), (200, 4)])
+def test_strays_do_not_move_the_frame(count, strays):
+    """One member of a small frame, and 2 % of those of a house, up to 100 m away and up; one more moves it."""
+    start = [cube((0, 0.1 * k, 0.5)) for k in range(count)]
+    house = views.box_of(FRONT, start, [start])
+    far = [cube((0, 100.0, 100.0)) for _ in range(strays)]
+    assert views.box_of(FRONT, start, [start[strays:] + far]) == house
+    assert views.box_of(FRONT, start, [start[strays + 1:] + far + far[:1]])[1] > house[1]

@@ -105,7 +105,7 @@ def test_a_full_disk_is_an_error_of_the_system_and_leaves_no_file(tmp_path, monk
     def full(*_):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("yade_timber.base.atomic_write.shutil.copyfileobj", full)
+    monkeypatch.setattr("pathlib.Path.write_bytes", full)
     with pytest.raises(OSError, match="No space"):
         vtk.export(tmp_path, frames())
     assert not [path for path in tmp_path.rglob("*") if path.is_file()] and capfd.readouterr() == ("", "")

@@ -34,7 +34,9 @@ def written_whole(path):
 
 @contextmanager
 def written_from_memory(path):
-    """`written_whole` through a file in memory, for writers that crash on a full disk (YADE, HDF5) or miss it (VTK)."""
+    """`written_whole` through a file in memory, for a writer that needs a path and crashes on a full disk (YADE). The
+    system's limit of a file's size holds in memory, too: the writer must report that.
+    """
     descriptor = os.memfd_create(Path(path).name)
     with open(descriptor, "rb") as memory:
         yield Path(f"/proc/self/fd/{descriptor}")
@@ -136,7 +138,12 @@ def make_folder(path):
         raise NotADirectoryError(errno.ENOTDIR, reason, str(path)) from None
 
 
+def write_bytes(path, content):
+    """Write a file. Raises OSError."""
+    with written_whole(path) as part:
+        part.write_bytes(content)
+
+
 def write_text(path, text):
     """Write a text file: UTF-8, line ends as given, halves of character pairs as escapes. Raises OSError."""
-    with written_whole(path) as part:
-        part.write_text(text, encoding="utf-8", errors="backslashreplace", newline="")
+    write_bytes(path, text.encode("utf-8", errors="backslashreplace"))

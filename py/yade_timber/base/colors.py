@@ -13,7 +13,8 @@ KINDS = {  # of elements; RGB in 0..1
 }
 OTHER = (0.7, 0.7, 0.7)
 """For kinds of elements without a colour of their own."""
-BLUE, ORANGE, GREEN, SKY_BLUE, AMBER, PURPLE, YELLOW, GREY, INDIGO = (
-    "#0072B2", "#D55E00", "#009E73", "#56B4E9", "#E69F00", "#CC79A7", "#F0E442", "#999999", "#332288")
+BLUE, ORANGE, GREEN, SKY_BLUE, AMBER, PURPLE, YELLOW, GREY, INDIGO, WINE = (
+    "#0072B2", "#D55E00", "#009E73", "#56B4E9", "#E69F00", "#CC79A7", "#F0E442", "#999999", "#332288",
+    "#882255")
 DIRECTIONS = {"ns": BLUE, "ew": ORANGE, "ud": GREY}
 """N-S, E-W, up-down."""

@@ -17,7 +17,8 @@ class Term:
 ELASTIC = ("elastic_contacts", "elastic_joints")
 DISSIPATED = (Term("dashpot_normal", "contact dashpots,\nnormal", colors.SKY_BLUE),
               Term("dashpot_shear", "contact dashpots,\ntangential", colors.BLUE),
-              Term("friction", "friction", colors.AMBER), Term("broken_springs", "broken joints", colors.ORANGE),
+              Term("friction", "friction", colors.AMBER), Term("crushing", "crushed timber", colors.WINE),
+              Term("broken_springs", "broken joints", colors.ORANGE),
               Term("lost_contacts", "contacts lost\nunder load", colors.PURPLE),
               Term("joint_dashpot", "joint dashpots", colors.INDIGO),
               Term("joint_yield", "yielding joints", colors.GREY))

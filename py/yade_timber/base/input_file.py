@@ -5,8 +5,6 @@ import os
 import stat
 from pathlib import Path
 
-from .errors import RunError
-
 MAX_SHOWN = 80
 """Longest value that a message quotes in full. [characters]"""
 
@@ -59,15 +57,3 @@ def read_bytes(path, limit):
     if len(content) > limit:
         raise OSError(errno.EFBIG, f"larger than {limit / 1e6:g} MB; give a smaller file")
     return content
-
-
-def require_regular(path, remedy=""):
-    """Raise RunError unless `path` is a regular file, or a link to one. remedy: for a missing file"""
-    try:
-        mode = Path(path).stat().st_mode
-    except FileNotFoundError:
-        raise RunError(f"{path}: no such file{remedy and f'; {remedy}'}") from None
-    except OSError as problem:
-        raise RunError(f"{path}: cannot be read: {problem.strerror}") from None
-    if not stat.S_ISREG(mode):
-        raise RunError(f"{path}: not a regular file")

@@ -4,16 +4,15 @@ import csv
 import io
 
 from .errors import RunError
-from .input_file import require_regular
+from .record_file import MAX_TABLE, read_record
 
 
 def read_csv(path):
     """(header, list of rows), cells as text. Raises RunError."""
-    require_regular(path)
+    content = read_record(path, limit=MAX_TABLE)
     try:
-        with open(path, newline="", encoding="utf-8") as file:
-            header, *rows = csv.reader(file)
-    except (OSError, ValueError, csv.Error) as problem:
+        header, *rows = csv.reader(io.StringIO(content.decode("utf-8"), newline=""))
+    except (ValueError, csv.Error) as problem:
         raise RunError(f"{path}: cannot be read as a table: {problem}") from None
     return header, rows
 

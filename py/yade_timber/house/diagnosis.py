@@ -216,10 +216,10 @@ def _bays(model, group):
 
 
 def _sheets(model, group):
-    """(column, column, multiplier) of sheets without openings."""
+    """(column, column, multiplier) of bearing walls without openings."""
     for joint in model.joints:
-        has_opening = joint.label.endswith((".window.columns", ".door.columns"))
-        if joint.kind == WALL_COLUMN and joint.group == group and not joint.broken and not has_opening:
+        is_partial = joint.label.endswith((".window.columns", ".door.columns", ".panel.columns"))
+        if joint.kind == WALL_COLUMN and joint.group == group and not joint.broken and not is_partial:
             yield model.element(joint.a), model.element(joint.b), model.multipliers[joint.type]
 
 

@@ -57,15 +57,16 @@ def check_joint_rules(rules, types):
 
 
 def joint_values(data, rule, part=1):
-    """Entries of JointSpec that follow from the house file (checked) and the rule of a joint.
+    """Entries of JointSpec, and `at`, that follow from the house file (checked) and the rule of a joint.
 
     part: of the rule's fittings that this joint has [-]
     """
     table = data["joint_types"][rule["type"]]
     factor = rule["number"] * rule["share"] * part
-    return {"type": rule["type"], "kind": rule["kind"], "law": table["law"], "kn": factor * table["kn"],
+    return {"at": table["at"], "type": rule["type"], "kind": rule["kind"], "law": table["law"], "kn": factor * table["kn"],
             "ks": factor * table["ks"],
             "strength": factor * table["strength"] if rule["strength"] is None else part * rule["strength"],
             "per": table["per"] or data["law"]["joint_reading"],
             "damping_ratio": data["law"]["joint_damping"] if table["damping_ratio"] is None else table["damping_ratio"],
+            "initial_damping": data["law"]["damping_stiffness"] == "initial",
             **{key: table[key] for key in SLIP_KEYS}}

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Joints found from the contact areas between elements (paper, 4: four springs at the corners of the contact area)."""
+"""Joints found from the contact areas between elements: four springs at the corners of the contact area (paper, 4), or
+one at its centre."""
 from collections import Counter
 from itertools import combinations
 
@@ -81,6 +82,8 @@ def near_pairs(elements, margin):
 def _joint(a, b, contact, values):
     polygon, normal, area = contact
     points = spring_points(polygon, normal)
+    if values.pop("at") == "centre":  # one spring: no rotational stiffness
+        points = points.mean(0)[None]
     end = ""
     if _is_end(a, normal):
         end = "top" if points[:, 2].mean() > a.solid.centroid[2] else "bottom"

@@ -75,7 +75,8 @@ layer = Variants("layer", {
 OPENINGS = ("window", "door")
 wall_line = Record({"along": Choice(("x", "y")), "at": nodes, "from": node, "to": node,
                     "type": ListOf(word(), scalar=True, least=1, most=5),
-                    "opening": Choice(("none", *OPENINGS), "none"), "storeys": storeys})
+                    "opening": Choice(("none", *OPENINGS), "none"), "panel": Number("", 0.1, 1.0, default=None),
+                    "storeys": storeys})
 _slab_load = Number("kN/m2", 0.05, 20.0, default=None)
 loads = Record({"roof": _slab_load, "floor": _slab_load, "wall": Number("kN/m2", 0.0, 20.0, default=None)}, default={})
 PLACE = Record({"origin": ListOf(Number("m", -1000, 1000), 2, default=None), "beside": word(None),
@@ -94,8 +95,9 @@ material = Variants("law", {
                     "stiffness_per_kg": Number("N/m per kg", 0.0, 1e9, open_low=True)})
 })
 _stretch = Number("m", 1e-5, 10.0, default=None)
-joint_type = Record({"law": Choice(("brittle", "slip"), "brittle"), "kn": Number("N/m", 1e3, 1e12),
-                     "ks": Number("N/m", 1e3, 1e12), "strength": Number("N", 10.0, infinite=True),
+joint_type = Record({"law": Choice(("brittle", "slip"), "brittle"), "at": Choice(("corners", "centre"), "corners"),
+                     "kn": Number("N/m", 1e3, 1e12), "ks": Number("N/m", 1e3, 1e12),
+                     "strength": Number("N", 10.0, infinite=True),
                      "per": Choice(("spring", "joint"), None), "damping_ratio": Number("", 0.0, 1.0, default=None),
                      "friction_share": Number("", 0.0, 1.0, default=None), "softening_stretch": _stretch,
                      "ultimate_stretch": _stretch})
@@ -110,11 +112,21 @@ nails = Record({"k": Number("N/m", 1e4, 1e8), "Pv": Number("N", 10.0, 1e5), "dv"
                 "board": board, "height": length(0.1, 20.0, default=None)},
                default=None)
 envelope = ListOf(Pair(Number("rad", 0.0, 1.0), Number("N/m", 0.0, 1e6)), most=MAX_POINTS, default=None)
-wall_type = Record({"multiplier": Number("", 0.1, 20.0, default=None),
+saws = Record({"F0": Number("N", 100.0, 1e7), "FI": Number("N", 0.0, 1e7), "DU": length(1e-3, 0.5),
+               "S0": Number("N/m", 1e4, 1e9), "R1": Number("", 0.0, 1.0), "R2": Number("", -1.0, -1e-4),
+               "R3": Number("", 1.0, 10.0), "R4": Number("", 0.0, 0.9), "alpha": Number("", 0.05, 2.0),
+               "beta": Number("", 1.0, 2.0), "length": length(0.1, 20.0), "height": length(0.1, 20.0)}, default=None)
+SAWS_STATES = ("friction_force", "reload_share", "reload_target")
+"""Keys of a wall type that follow from `saws`."""
+wall_type = Record({"multiplier": Number("", 0.0, 20.0, default=None),
                     "strength": Number("N/m", 10.0, 1e6, default=None),
                     "stiffness": Number("N/m per rad", 1e3, 1e9, default=None), "envelope": envelope, "nails": nails,
-                    "friction_share": Number("", 0.0, 1.0, default=0.2), "softening_drift": _drift,
-                    "ultimate_drift": _drift})
+                    "saws": saws, "friction_force": Number("N/m", 0.0, 1e5, default=None),
+                    "reload_share": Number("", 0.0, 1.0, default=None),
+                    "reload_target": Number("", 1.0, 2.0, default=None),
+                    "friction_share": Number("", 0.0, 1.0, default=None), "softening_drift": _drift,
+                    "ultimate_drift": _drift, "residual_share": Number("", 0.0, 0.95, default=0.0),
+                    "finish": Flag(False)})
 joint_rule = Record({"between": ListOf(ListOf(Choice(KINDS), scalar=True, most=len(KINDS)), 2), "type": word(),
                      "kind": word(), "across": Flag(False),
                      "number": Number("fittings", 1, 100, whole=True, default=1),
@@ -130,14 +142,18 @@ HOUSE = Record({
     "materials": MapOf(material),
     "friction": ListOf(Record({"between": ListOf(word(), 2), "coefficient": Number("", 0.0, 2.0)})),
     "law": Record({"joint_reading": Choice(("spring", "joint"), "joint"),
-                   "joint_damping": Number("", 0.0, 1.0, default=0.0), "wall_level": Choice(WALL_LEVELS, "mean"),
-                   "vertex_edge_contacts": Flag(False), "flush_supports": Flag(True),
-                   "hertz": Choice(("closed", "increment"), "closed")}, default={}),
+                   "joint_damping": Number("", 0.0, 1.0, default=0.0),
+                   "damping_stiffness": Choice(("tangent", "initial"), "tangent"),
+                   "wall_level": Choice(WALL_LEVELS, "mean"),
+                   "vertex_edge_contacts": Flag(True), "flush_supports": Flag(True),
+                   "hertz": Choice(("closed", "increment"), "closed"),
+                   "bearing": Number("Pa", 1e5, 1e9, off=True, default=6e6)}, default={}),
     "ground": Record({"size": length(1.0, 1000.0), "thickness": length(0.05, 100.0), "material": word("timber")}),
     "structures": MapOf(structure),
     "loads": loads,
     "joint_types": MapOf(joint_type),
     "wall_types": MapOf(wall_type, default={}),
+    "finishes": Flag(True),
     "joints": MapOf(joint_rule),
     "joint_search": Record({"plane_tolerance": Number("m", 0.0, 1e-3, True, default=1e-6),
                             "min_area": Number("m2", 0.0, 1.0, default=1e-3)}, default={}),

@@ -60,9 +60,22 @@ class Element:
         self.density = mass / self.volume
 
 
+@dataclass(frozen=True)
+class WallCycles:
+    """Law 'wall' of a spring: its cycles (docs/theory.md, section 4)."""
+
+    friction_force: float  # [N] at zero stretch after yielding
+    reload_target: float = 1.0  # stretch at which reloading meets the envelope, over the largest so far
+    reload_share: float = 0.0  # of the slack, from which it reloads, unless reload_stiffness says otherwise
+    pinched_stiffness: float = 0.0  # [N/m] within the slack
+    reload_stiffness: float = 0.0  # [N/m] k0: stiffness of reloading k0 (reload_stretch / target)^reload_power
+    reload_stretch: float = 0.0  # [m]
+    reload_power: float = 0.0
+
+
 @dataclass(eq=False)
 class JointSpec:
-    """Springs between elements `a` and `b`: four at the corners of their contact area (paper, 2.4), or a wall's one."""
+    """Springs between elements `a` and `b`: four at the corners of their contact area (paper, 2.4), or one at its centre."""
 
     a: str
     b: str
@@ -77,12 +90,15 @@ class JointSpec:
     type: str = ""       # key of joint_types
     storey: int = 0
     side: frozenset = frozenset()
-    law: str = "brittle"  # or 'slip'
+    law: str = "brittle"  # or 'slip', 'wall'
     damping_ratio: float = 0.0  # of the critical damping of the joined masses
+    damping_time: float = 0.0  # [s] of dashpots that damp the sway of the house, over the stiffness
+    initial_damping: bool = False  # dashpots keep the initial stiffness of yielded springs
     friction_share: object = None     # law 'slip': share of the yield force that acts in both directions
     softening_stretch: object = None  # [m] law 'slip': stretch from which the strength falls
     ultimate_stretch: object = None   # [m] law 'slip': stretch at which no strength is left
-    envelope: tuple = ()  # law 'slip': (stretch [m], force [N]) of the first loading, replaces the three values
+    envelope: tuple = ()  # laws 'slip', 'wall': (stretch [m], force [N]) of the first loading
+    cycles: object = None  # law 'wall': WallCycles
     end: str = ""        # columns and braces: 'top' or 'bottom' end of a
     group: str = ""
     broken: bool = False  # damaged before the run starts

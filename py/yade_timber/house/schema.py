@@ -39,14 +39,18 @@ class Number:
     open_low: bool = False
     infinite: bool = False
     whole: bool = False
+    off: bool = False  # whether `false` is admissible
     default: object = REQUIRED
 
     def check(self, value, where, name):
+        if self.off and value is False:
+            return False
         fraction = self.unit == "rad" and isinstance(value, str) and _FRACTION.fullmatch(value)
         if fraction and float(fraction[2]):
             value = float(fraction[1]) / float(fraction[2])
         if isinstance(value, bool) or not isinstance(value, (int, float)):
-            fail(where, name, f"expected a number{self._range()}, got {shown(value)}{decimal_point(value)}")
+            wanted = f"a number{self._range()}{' or false' if self.off else ''}"
+            fail(where, name, f"expected {wanted}, got {shown(value)}{decimal_point(value)}")
         if not self._admits(value) or math.isinf(value) and not self.infinite or self.whole and value != int(value):
             kind = "a whole number" if self.whole else "a number"
             fail(where, name, f"must be {kind}{self._range()}, got {value!r}{self._other_units(value)}")

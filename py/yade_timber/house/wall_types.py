@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Types of sheathing -> envelopes: shear per metre of wall [N/m] over the drift [rad] at first loading."""
+"""Types of sheathing -> envelopes: shear per metre of wall [N/m] over the drift [rad] at first loading; and cycles."""
 from dataclasses import dataclass
 
 import numpy as np
 
-from .layout import OPENINGS
+from . import saws
+from .layout import OPENINGS, SAWS_STATES
 from .nails import nailed_wall
 from .schema import fail
 
@@ -40,7 +41,28 @@ SLIP_TOLERANCE = 0.1
 """Of the nails' Pv = k dv. [-]"""
 LEAST_SHEAR = 100.0
 """Of the largest shear of an envelope, below which it is taken to be in kN. [N/m]"""
-FORMS = ("multiplier", "envelope", "nails")
+FORMS = ("envelope", "nails", "saws")
+"""Of a type's shear, in place of that of its multiplier."""
+FRICTION = 0.1
+"""Friction force over the largest shear. [-] (SAWS set of a wall of OpenSees' example; docs/theory.md, walls)"""
+RELOAD_SHARE = 0.65
+"""Share of the slack from which walls reload. [-] (likewise)"""
+RELOAD_TARGET = 1.1
+"""Drift at which reloading meets the envelope, over the largest one so far. [-] (likewise)"""
+
+
+@dataclass(frozen=True)
+class Cycles:
+    """Of a wall type, per metre of wall; names as those of WallCycles (model.py)."""
+
+    friction_force: float  # [N/m]
+    reload_share: float = 0.0
+    reload_target: float = 1.0
+    steepness: float = 1.0  # unloading stiffness over the steepest slope of the envelope
+    pinched_stiffness: float = 0.0  # [N/m per rad]
+    reload_stiffness: float = 0.0  # [N/m per rad]
+    reload_drift: float = 0.0  # [rad]
+    reload_power: float = 0.0
 
 
 def check_wall_types(types):
@@ -52,11 +74,12 @@ def check_wall_types(types):
         forms = [key for key in FORMS if table[key] is not None]
         if len(forms) > 1:
             fail(table.at(forms[1]), path, f"give one of {', '.join(FORMS)}; got {' and '.join(forms)}")
-        if forms and forms[0] != "multiplier":
+        if forms:
             _refuse(table, path, ("strength", "stiffness"), forms[0])
             _CHECKS[forms[0]](table, path)
         else:
             _check_rated(table, path)
+        _check_cycles(table, path)
 
 
 def _points(table):
@@ -73,8 +96,8 @@ def _refuse(table, path, keys, form):
 
 def _check_rated(table, path):
     for key in ("strength", "stiffness"):
-        if table["multiplier"] is None and table[key] is None:
-            fail(table.where, path, f"give multiplier or {key}, or envelope, or nails")
+        if not table["multiplier"] and table[key] is None:
+            fail(table.where, path, f"give multiplier or {key}, or envelope, or nails, or saws")
     for level in LEVELS:
         points = envelope(table, level)
         drifts = [drift for drift, _ in points]
@@ -133,23 +156,75 @@ def _check_end(table, path, last, name):
              f"must be greater than {name}, {last:.4g}, got {table['ultimate_drift']:g}")
 
 
-_CHECKS = {"envelope": _check_envelope, "nails": _check_nails}
+def _check_saws(table, path):
+    _refuse(table, path, (*SAWS_STATES, "friction_share", "softening_drift", "ultimate_drift"), "saws")
+    problem = saws.unmet_by(table["saws"])
+    if problem:
+        fail(table.at("saws"), f"{path}.saws", problem)
+
+
+def _check_cycles(table, path):
+    """Of a checked envelope."""
+    if table["friction_share"] is not None:
+        for key in SAWS_STATES:
+            if table[key] is not None:
+                fail(table.at(key), f"{path}.{key}", "does not go with friction_share, the law slip; remove one of them")
+        if table["residual_share"]:
+            fail(table.at("residual_share"), f"{path}.residual_share",
+                 "does not go with friction_share, the law slip; remove one of them")
+    for level in LEVELS:
+        largest = max(shear for _, shear in envelope(table, level))
+        if table["friction_force"] is not None and not table["friction_force"] < largest:
+            fail(table.at("friction_force"), f"{path}.friction_force",
+                 f"must be below the largest shear, {largest:.4g} N/m, got {table['friction_force']:g}")
+
+
+_CHECKS = {"envelope": _check_envelope, "nails": _check_nails, "saws": _check_saws}
 
 
 def has_rated_walls(data):
     """Whether a house (data of its file) has walls whose envelope depends on the level."""
     used = {name for structure in data["structures"].values() for line in structure["walls"] for name in line["type"]}
     tables = [data["wall_types"][name] for name in used]
-    return any(table["multiplier"] is not None and None in (table["strength"], table["stiffness"]) for table in tables)
+    return any(all(table[form] is None for form in FORMS) and None in (table["strength"], table["stiffness"])
+               for table in tables)
 
 
 def envelope(table, level):
-    """[(drift, shear)] of a wall type from its first point to zero shear. level: of LEVELS, for rated types"""
+    """[(drift, shear)] of a wall type from its first point to zero or residual shear. level: of LEVELS, for rated types
+    """
+    return _with_residual(_whole_envelope(table, level), table["residual_share"])
+
+
+def _whole_envelope(table, level):
     if table["envelope"] is not None:
         return _tested(table)
     if table["nails"] is not None:
         return _nailed(table)
+    if table["saws"] is not None:
+        return saws.envelope(table["saws"])
     return _rated(table, LEVELS[level])
+
+
+def _with_residual(points, share):
+    """Points down to this share of the largest shear, which remains beyond the last one."""
+    residual = share * max(shear for _, shear in points)
+    kept = list(points)
+    while len(kept) > 1 and kept[-2][1] <= residual:
+        kept.pop()
+    (d0, f0), (d1, f1) = kept[-2:]
+    return [*kept[:-1], (d0 + (f0 - residual) / (f0 - f1) * (d1 - d0), residual)] if residual > 0 else points
+
+
+def cycles(table, level):
+    """Cycles of a wall type."""
+    if table["saws"] is not None:
+        return Cycles(**saws.cycles(table["saws"]))
+    largest = max(shear for _, shear in envelope(table, level))
+    given = {key: default if table[key] is None else table[key]
+             for key, default in (("friction_force", FRICTION * largest), ("reload_share", RELOAD_SHARE),
+                                  ("reload_target", RELOAD_TARGET))}
+    return Cycles(**given)
 
 
 def multiplier(table):

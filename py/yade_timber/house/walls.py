@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Sheathed walls: springs of the law slip in each bay, whose shear follows the envelope of their type. Lengths in m.
+"""Sheathed walls: springs in each bay, whose shear follows the envelope and cycles of their type. Lengths in m.
 
 A sheet is nailed to the beams above and below it and to the columns at its sides. Its drift is that of its bay. Half of
 its shear H acts between the beams, horizontally; the other half between the columns, vertically: as a force H h / L,
@@ -18,15 +18,18 @@ from ..base.joint_kinds import WALL_BEAM, WALL_COLUMN
 from .errors import HouseError
 from .loads import bay_length
 from .members import column_plan, line_name, nodes_on_line, require_column
-from .model import JointSpec
+from .model import JointSpec, WallCycles
 from .structure import ACROSS
-from .wall_types import envelope
+from .wall_types import cycles, envelope
 
 SHARE = 0.5
 """Of a wall's shear, between beams and between columns. [-]"""
 OPENINGS = {"none": (1.0, 1.0, 1.0), "window": (0.4, 0.3, 0.2), "door": (0.2, 0.15, 0.1)}
 """Strength and stiffness over those without an opening, in bays up to 1 m, up to 2 m, and longer (strength: JBDPA,
 precise diagnosis of 2004; stiffness: assumed to be the same). [-]"""
+PANEL = 0.6
+"""Share of the shear of quasi-bearing, hanging and spandrel walls that cover the whole clear height, over that of a
+bearing wall. [-] (evaluation standard of the performance labelling, Notification 1347 of 2001; not verified)"""
 REACH = 1e-3
 """Beyond the ends of the columns, where beam and sill are looked for. [m]"""
 
@@ -40,6 +43,7 @@ class Bay:
     high: object
     side: frozenset
     opening: str
+    panel: object  # None: a bearing wall; else the share of the clear height that its panels cover [-]
     where: str
 
     @property
@@ -49,8 +53,9 @@ class Bay:
 
     @property
     def share(self):
-        """Of the strength of a wall without an opening. [-]"""
-        return OPENINGS[self.opening][np.searchsorted((1.0, 2.0), self.length - 1e-9)]
+        """Of the strength of a bearing wall without an opening. [-]"""
+        whole = 1.0 if self.panel is None else PANEL * self.panel
+        return whole * OPENINGS[self.opening][np.searchsorted((1.0, 2.0), self.length - 1e-9)]
 
 
 def sheathe(structure, elements, data, level):
@@ -58,8 +63,9 @@ def sheathe(structure, elements, data, level):
     members = [element for element in elements if element.group in (structure.name, "")]
     joints, seen = [], {}
     for line in structure.table["walls"]:
+        names = [name for name in line["type"] if data["finishes"] or not data["wall_types"][name]["finish"]]
         for bay in _bays(structure, line, {element.name: element for element in members}):
-            for name in line["type"]:
+            for name in names:
                 if (bay.name, name) in seen:
                     raise HouseError(f"{bay.where}: {bay.name} has sheathing of type {name} already"
                                      f" ({seen[bay.name, name]}); remove one")
@@ -77,7 +83,8 @@ def _bays(structure, line, by_name):
             places = [(node, at) if along == "x" else (at, node) for node in nodes]
             columns = [by_name[f"{structure.name}.column{storey}.x{x:g}y{y:g}"] for x, y in places]
             start = f"{structure.name}.wall{storey}.{line_name(along, at)}"
-            bays += [Bay(f"{start}.{first:g}-{last:g}", low, high, side, line["opening"], line.where)
+            bays += [Bay(f"{start}.{first:g}-{last:g}", low, high, side, line["opening"], line["panel"],
+                     line.where)
                      for first, last, low, high in zip(nodes, nodes[1:], columns, columns[1:])]
     return bays
 
@@ -96,17 +103,18 @@ def _nodes(structure, line, storey, at):
 
 
 def _joints(bay, name, members, data, level):
-    """The two halves of a wall of a type; their labels end in '.plywood.beams', '.plywood.window.beams'."""
-    label = f"{bay.name}.{name}" + ("" if bay.opening == "none" else f".{bay.opening}")
+    """The two halves of a wall of a type; their labels end in '.plywood.beams', '.plywood.window.beams', '.gypsum.panel.beams'."""
+    parts = [part for part, is_part in ((bay.opening, bay.opening != "none"), ("panel", bay.panel is not None)) if is_part]
+    label = ".".join([bay.name, name, *parts])
     low, high = bay.low.solid, bay.high.solid
     height = float(np.diff(low.bounds[:, 2])[0])
     along = np.append((high.centroid - low.centroid)[:2], 0.0)
     below, above = (_member_at(bay, members, top) for top in (False, True))
-    points = envelope(data["wall_types"][name], level)
-    beams, columns = _values(bay, points, height, 1.0), _values(bay, points, bay.length, height / bay.length)
+    table = data["wall_types"][name]
+    beams, columns = (_values(bay, table, level, lever, height / lever) for lever in (height, bay.length))
     common = dict(points=(low.centroid + high.centroid)[None] / 2, area=0.0, type=name, ks=0.0, per="spring",
-                  storey=bay.low.storey, side=bay.side, group=bay.low.group, law="slip",
-                  damping_ratio=data["law"]["joint_damping"], friction_share=data["wall_types"][name]["friction_share"])
+                  storey=bay.low.storey, side=bay.side, group=bay.low.group,
+                  initial_damping=data["law"]["damping_stiffness"] == "initial")
     return [
         JointSpec(below.name, above.name, normal=along / np.linalg.norm(along), kind=WALL_BEAM, label=f"{label}.beams",
                   **beams, **common),
@@ -115,16 +123,24 @@ def _joints(bay, name, members, data, level):
     ]
 
 
-def _values(bay, points, lever, ratio):
-    """Law of one half. points: envelope of the wall's type; lever: stretch over drift [m]; ratio: force of the spring
-    over the shear that it stands for [-]. The spring unloads along the steepest line of its envelope."""
+def _values(bay, table, level, lever, ratio):
+    """Law of one half. table: wall type; lever: stretch over drift [m]; ratio: force of the spring over the shear that
+    it stands for [-]. The spring unloads along the steepest line of its envelope, unless its cycles are steeper."""
     part = SHARE * bay.share * bay.length * ratio
-    envelope = tuple((lever * drift, part * shear) for drift, shear in points)
-    slopes = [(f1 - f0) / (d1 - d0) for (d0, f0), (d1, f1) in zip(((0.0, 0.0), *envelope), envelope)]
-    strength = max(force for _, force in envelope)
-    softening = max(stretch for stretch, force in envelope if force == strength)
-    return {"kn": max(slopes), "strength": strength, "envelope": envelope, "softening_stretch": softening,
-            "ultimate_stretch": envelope[-1][0]}
+    points, cyclic = envelope(table, level), cycles(table, level)
+    scaled = tuple((lever * drift, part * shear) for drift, shear in points)
+    slopes = [(f1 - f0) / (d1 - d0) for (d0, f0), (d1, f1) in zip(((0.0, 0.0), *scaled), scaled)]
+    strength = max(force for _, force in scaled)
+    softening = max(stretch for stretch, force in scaled if force == strength)
+    common = {"kn": cyclic.steepness * max(slopes), "strength": strength, "envelope": scaled,
+              "softening_stretch": softening, "ultimate_stretch": scaled[-1][0]}
+    if table["friction_share"] is not None:
+        return {**common, "law": "slip", "friction_share": table["friction_share"]}
+    rate = part / lever
+    return {**common, "law": "wall",
+            "cycles": WallCycles(part * cyclic.friction_force, cyclic.reload_target, cyclic.reload_share,
+                                 rate * cyclic.pinched_stiffness, rate * cyclic.reload_stiffness,
+                                 lever * cyclic.reload_drift, cyclic.reload_power)}
 
 
 def _member_at(bay, members, top):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Peaks, JMA instrumental intensity, response spectra, Arias intensity, in the customary gal, cm/s and cm."""
 import math
+from bisect import bisect_right
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,6 +16,8 @@ VELOCITY_CORNER = 0.05
 """Default high-pass of velocities and displacements. [Hz] Below it records have baseline errors, not motion."""
 INTENSITY_DURATION = 0.3
 """The filtered vector acceleration must stay at or above a0 for this long in total. [s] (JMA)"""
+INTENSITY_STEP = 1 / 800
+"""Largest step between two values of the filtered acceleration, whose highest frequency of note is 10 Hz. [s]"""
 MOST_SAMPLES = 2_000_000
 """Samples of one component that are integrated, transients included: 100 s at 1e-4 s. Resampled motions may have more.
 """
@@ -109,11 +112,36 @@ def jma_filter(frequency):
     return np.where(f > 0.0, period_effect * high_cut * low_cut, 0.0)
 
 
-def jma_filtered(motion):
-    """Acceleration after JMA's filter, applied by Fourier transform of the whole record. (n, 3) [m/s2]"""
+def jma_filtered(motion, parts=1):
+    """Acceleration after JMA's filter, applied by Fourier transform of the whole record, at `parts` times per sample of
+    the motion. (n parts, 3) [m/s2]
+    """
     n = len(motion)
     gain = jma_filter(np.fft.rfftfreq(n, motion.dt))
-    return np.fft.irfft(np.fft.rfft(motion.acceleration, axis=0) * gain[:, None], n, axis=0)
+    spectrum = np.fft.rfft(motion.acceleration, axis=0) * gain[:, None]
+    return parts * np.fft.irfft(spectrum, n * parts, axis=0)
+
+
+def lasting_level(values, duration):
+    """Largest level at or above which periodic values stay for a duration in total, straight lines between them.
+
+    values (n,); duration: in steps between two values, at most n
+    """
+    ends = np.stack([values, np.roll(values, -1)])
+    low, high = ends.min(axis=0), ends.max(axis=0)
+    sloping = high > low
+
+    def time_above(level, reached=np.greater_equal):
+        shares = (high[sloping] - level) / (high - low)[sloping]
+        return np.clip(shares, 0.0, 1.0).sum() + np.count_nonzero(reached(low[~sloping], level))
+
+    levels = np.unique(values)
+    reached = bisect_right(levels, -duration * (1 - 1e-9), key=lambda level: -time_above(level)) - 1
+    level, above = levels[reached], time_above(levels[reached], np.greater)
+    if reached + 1 == len(levels) or above <= duration:
+        return float(level)
+    upper = levels[reached + 1]
+    return float(level + (upper - level) * (above - duration) / (above - time_above(upper)))
 
 
 def stated_intensity(motion):
@@ -125,11 +153,11 @@ def stated_intensity(motion):
 
 def jma_intensity(motion):
     """JMA instrumental intensity of three components -> JmaIntensity. The record must last 0.3 s or more."""
-    count = int(np.ceil(INTENSITY_DURATION / motion.dt - 1e-9))
-    if count > len(motion):
+    if len(motion) * motion.dt < INTENSITY_DURATION * (1 - 1e-9):
         raise RecordError(f"{motion.name}: lasts {motion.duration:g} s; JMA intensity needs 0.3 s or more")
-    vector = np.linalg.norm(jma_filtered(motion), axis=1)
-    a0 = float(np.sort(vector)[-count]) / GAL
+    parts = math.ceil(motion.dt / INTENSITY_STEP)
+    vector = np.linalg.norm(jma_filtered(motion, parts), axis=1)
+    a0 = lasting_level(vector, INTENSITY_DURATION * parts / motion.dt) / GAL
     if a0 <= 0.0:
         return JmaIntensity(-np.inf, -np.inf, 0.0)
     raw = float(2.0 * np.log10(a0) + 0.94)

@@ -122,7 +122,8 @@ def _write_mp4(path, images, form, _count):
     even = ("-vf", "crop=trunc(iw/2)*2:trunc(ih/2)*2:0:0")  # of yuv420p
     command = ["ffmpeg", "-v", "error", "-y", *source, *even, *ENCODING, str(path)]
     try:
-        process = subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE)
+        process = subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE,
+                                   restore_signals=False)  # a limit of the file's size is an error that ffmpeg reports
     except FileNotFoundError:
         raise RunError("a film in MP4 needs ffmpeg: install the package ffmpeg, or choose a name that ends in"
                        " .webp") from None

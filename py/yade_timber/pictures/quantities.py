@@ -14,7 +14,7 @@ from ..recording.peaks import COLUMNS, JOINTS, rows
 from ..recording.quantities import BAND_TEXT, Storeys
 from ..recording.quantities import NAME as STOREYS
 from ..recording.summary import Summary
-from ..text.english import direction_name, period_text, sentence
+from ..text.english import direction_name, period_text, ratio, sentence
 from ..text.lines import before
 from .figures import A4, drawable, fitting_size, heading, heading_height, new_figure
 from .style import default_style
@@ -93,7 +93,14 @@ def draw_loop(axis, results, storey, direction):
     shear = np.where(np.abs(drift) < 20, table.column(f"shear_{direction}{storey}") / 1e3, np.nan)
     axis.plot(drift, shear, lw=0.5, color=colors.DIRECTIONS[direction])
     cut_impacts(axis, results.summary.quantities.storeys[f"storey{storey}"].shear.sustained[direction])
-    style(axis, f"storey {storey}, {direction_name(direction)}", "drift [%]", "shear [kN]")
+    style(axis, f"storey {storey}, {direction_name(direction)}{at_column(results.summary, storey, direction)}",
+          "drift [%]", "shear [kN]")
+
+
+def at_column(summary, storey, direction):
+    """', column 1/45': the largest drift at a column of a house that stands; empty where none is recorded."""
+    drift = summary.column_drift and summary.column_drift.largest[f"storey{storey}"][direction]
+    return "" if drift is None or summary.collapsed else f", column {ratio(drift)}"
 
 
 def cut_impacts(axis, sustained):
@@ -189,7 +196,7 @@ def draw_modes(axis, results):
 
 def draw_energy(axis, results):
     energy = results.summary.energy
-    terms = [term for term in DISSIPATED if energy.dissipated[term.name]]
+    terms = [term for term in DISSIPATED if energy.dissipated.get(term.name)]
     values = [energy.dissipated[term.name] / 1e3 for term in terms]
     axis.barh([term.label for term in terms], values, color=[term.color for term in terms], height=0.7)
     axis.invert_yaxis()

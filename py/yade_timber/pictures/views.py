@@ -72,6 +72,8 @@ GRID = 0.5
 """Boxes begin and end at multiples of it: with an even number of pixels per metre they have whole pixels. [m]"""
 FAR = 8.0
 """Wreckage farther from the house's original outline is cut off. [m]"""
+STRAYS = 0.02
+"""Share of the members, at least one, that may leave the frame on each side. [-]"""
 OUTLINE_PIXELS = 60
 """For the dashed outline. [1/m]"""
 HIDDEN_BEHIND = 0.25
@@ -94,14 +96,25 @@ LEGEND_KINDS = {"snow": "snow", "roof": "roof", "brace": "brace", "column": "col
 
 
 def box_of(view, starts, later):
-    """(left, right, bottom, top) around the solids at the start and lists of solids at later times. [m]"""
-    start = np.vstack([s.vertices for s in starts if s.kind != "ground"])
-    points = np.vstack([start, *(s.vertices for solids in later for s in solids if s.kind != "ground")])
-    across, original = points @ view.right, start @ view.right
-    left = max(across.min(), original.min() - FAR) - BORDER
-    right = min(across.max(), original.max() + FAR) + BORDER
-    top = min(points[:, 2].max(), start[:, 2].max() + FAR) + BORDER
+    """(left, right, bottom, top) around the solids at the start and lists of solids at later times, without STRAYS. [m]
+    """
+
+    def reach(axis):
+        end = max(largest(starts, axis))
+        without_strays = [end]
+        for values in (sorted(largest(solids, axis)) for solids in later):
+            strays = min(len(values) - 1, max(1, int(STRAYS * len(values))))
+            without_strays.append(values[len(values) - 1 - strays])
+        return min(max(without_strays), end + FAR) + BORDER
+
+    right = np.array(view.right)
+    left, right, top = -reach(-right), reach(right), reach(np.array([0.0, 0.0, 1.0]))
     return np.floor(left / GRID) * GRID, np.ceil(right / GRID) * GRID, -DEPTH_BELOW, np.ceil(top / GRID) * GRID
+
+
+def largest(solids, axis):
+    """Largest coordinate of each solid but the ground along an axis. [m]"""
+    return [(s.vertices @ axis).max() for s in solids if s.kind != "ground"]
 
 
 def draw_view(ax, window, snapshot, front, mark_size=MARK_SIZE):

@@ -14,7 +14,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from ..base.errors import RunError
-from ..base.atomic_write import make_folder, write_text, written_from_memory
+from ..base.atomic_write import make_folder, write_bytes, write_text
 from ..recording.frames import rotated, starts
 
 try:
@@ -45,12 +45,11 @@ def write_series(folder, name, make, numbers):
     collection = ElementTree.SubElement(root, "Collection")
     for index, (time, number) in enumerate(numbers):
         file = f"{name}/{name}_{index:04d}.vtp"
-        with written_from_memory(folder / file) as memory:
-            writer = vtkXMLPolyDataWriter()
-            writer.SetFileName(str(memory))
-            writer.SetInputData(make(number))
-            if not writer.Write():
-                raise OSError(f"{folder / file}: VTK could not write it")
+        writer = vtkXMLPolyDataWriter()
+        writer.WriteToOutputStringOn()  # VTK misses a full disk
+        writer.SetInputData(make(number))
+        writer.Write()
+        write_bytes(folder / file, writer.GetOutputString().encode())
         ElementTree.SubElement(collection, "DataSet", timestep=f"{time:.9g}", part="0", file=file)
     ElementTree.indent(root)
     write_text(folder / f"{name}.pvd", ElementTree.tostring(root, encoding="unicode", xml_declaration=True) + "\n")

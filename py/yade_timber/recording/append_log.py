@@ -13,7 +13,7 @@ import zlib
 import numpy as np
 
 from ..base.errors import RunError
-from ..base.input_file import require_regular
+from ..base.record_file import open_record, record
 
 FIELDS, CHECKSUM = struct.Struct("<cId"), struct.Struct("<I")
 RUN = b"R"
@@ -36,10 +36,8 @@ class AppendLog:
 
     def flush(self):
         """Append the pending records; returns the file's size. Raises OSError, RunError for what is no regular file."""
-        if os.path.lexists(self.path):
-            require_regular(self.path)
-        with open(self.path, "ab") as file:
-            if file.tell() == 0:
+        with open_record(self.path, os.O_RDWR | os.O_APPEND | os.O_CREAT) as file:
+            if file.seek(0, os.SEEK_END) == 0:
                 file.write(_packed(RUN, 0.0, self.run.encode()))
             for record in self.pending:
                 file.write(_packed(*record))
@@ -55,7 +53,8 @@ class AppendLog:
             return 0
         size = sum(FIELDS.size + CHECKSUM.size + len(content) for _, when, content in _all(self.path, self.run)
                    if when <= time)
-        os.truncate(self.path, size)
+        with open_record(self.path, os.O_RDWR) as file:
+            file.truncate(size)
         return size
 
 
@@ -71,8 +70,7 @@ def read(path, run):
 
 def _all(path, run):
     """As `read`, with the record of the run."""
-    require_regular(path)
-    with open(path, "rb") as file:
+    with record(path) as file:
         first = next(_complete(file), None)
         if first and (first[0], first[2]) != (RUN, run.encode()):
             raise RunError(f"{path}: of another run")

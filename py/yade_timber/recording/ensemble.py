@@ -7,7 +7,8 @@ each run: runs/001, runs/002, ... Run 1 is undisturbed; run k is disturbed with 
 import json
 
 from ..base.errors import RunError
-from ..base.input_file import require_regular
+from ..base.input_file import exists, is_file
+from ..base.record_file import read_record
 from .history import NAME as HISTORY
 from .history import History
 
@@ -22,18 +23,18 @@ def run_folder(folder, number):
 
 def has_runs(folder):
     """Whether a folder holds an ensemble with the histories of all its finished runs."""
-    return (folder / NAME).is_file() and all((run_folder(folder, number) / HISTORY).is_file()
-                                             for number in read(folder)["finished"])
+    return exists(folder / NAME) and all(is_file(run_folder(folder, number) / HISTORY)
+                                         for number in read(folder)["finished"])
 
 
 def read(folder):
     """Content of ensemble.json. Raises RunError."""
     path = folder / NAME
-    require_regular(path)
+    text = read_record(path)
     try:
-        content = json.loads(path.read_text(encoding="utf-8"))
+        content = json.loads(text)
         return {**content, "finished": list(map(int, content["finished"])), "shown": int(content["shown"])}
-    except (OSError, ValueError, LookupError, TypeError) as problem:
+    except (ValueError, LookupError, TypeError, RecursionError, OverflowError) as problem:
         raise RunError(f"{path}: cannot be read as the results of an ensemble: {problem}") from None
 
 

@@ -29,6 +29,7 @@ Frames are recorded FRAMES_PER_SECOND times per simulated second from t = 0, and
 ended, the frames and contacts up to its last checkpoint are in frames.log beside the file (frame_log.py), which `load`
 reads, too.
 """
+import io
 import json
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -37,24 +38,47 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from ..base.atomic_write import written_from_memory
+from ..base.atomic_write import write_bytes
 from ..base.errors import RunError
-from ..base.input_file import require_regular
 from ..base.json_types import encode
 from ..base.time_step import rest_stride
 from . import append_log, frame_log
 from .history import History
 from .summary import ANEW, Summary, parse
+from .table_file import FAULTS, Group, opened
 
 NAME = "frames.h5"
 FORMAT = "yade-timber frames 1"
 FRAMES_PER_SECOND = 20
 CONTACT_EVERY = 10
-FAULTS = (OSError, LookupError, ValueError, TypeError, AttributeError, RuntimeError, MemoryError)
-"""Of h5py, numpy or json, for a file that is none of ours."""
-STRINGS = {"elements/name", "elements/kind", "elements/group", "elements/material", "joints/name", "joints/kind",
-           "joints/storey", "joints/side"}
 ATTRIBUTES = ("title", "scenario", "model", "version", "run")
+LAYOUT = {
+    "": Group(attributes={"format": "text", **dict.fromkeys(ATTRIBUTES, "text"), "ended": "flag", "summary": "text"}),
+    "elements": Group({
+        **dict.fromkeys(("name", "kind", "group", "material"), ("text", "N")), "storey": ("whole", "N"),
+        "fixed": ("flag", "N"), "position": ("number", "N", 3), "orientation": ("number", "N", 4),
+        "vertices": ("number", "V", 3), "vertex_start": ("whole", "N + 1"), "faces": ("whole", "C"),
+        "face_start": ("whole", "faces + 1"), "element_start": ("whole", "N + 1")
+    }),
+    "joints": Group({
+        **dict.fromkeys(("name", "kind", "storey", "side"), ("text", "J")), "a": ("whole", "J"), "b": ("whole", "J"),
+        "anchor": ("number", "J", 3), "springs": ("whole", "J"), "damaged": ("flag", "J"), "strength": ("number", "J")
+    }),
+    "frames": Group({
+        "time": ("number", "F"), "position": ("number", "F", "N", 3), "orientation": ("number", "F", "N", 4),
+        "load": ("number", "F", "J"), "broken": ("whole", "F", "J")
+    }),
+    "contacts": Group({
+        "time": ("number", "K"), "start": ("whole", "K + 1"), "pair": ("whole", "P", 2), "position": ("number", "P", 3),
+        "force": ("number", "P", 3)
+    }),
+    "motion": Group({"acceleration": ("number", "M", 3), "displacement": ("number", "M", 3)},
+                    {"dt": "number", "start": "number"}),
+    "history": Group({"columns": ("text", "columns"), "rows": ("number", "samples", "columns")}),
+    "breaks": Group({"time": ("number", "B"), "joint": ("whole", "B"), "spring": ("whole", "B"), "cause": ("text", "B"),
+                     "force": ("number", "B")}),
+}
+"""What the file can hold, as of `table_file`."""
 
 
 def steps_between(dt):
@@ -222,7 +246,8 @@ def placed(vertices, position, orientation):
 
 def save(path, frames):
     """Write the file. A kill at any moment leaves a complete file, the earlier or the new one. Raises OSError."""
-    with written_from_memory(path) as memory, open(memory, "w+b") as stream, h5py.File(stream, "w") as file:
+    memory = io.BytesIO()  # HDF5 crashes where it cannot write
+    with h5py.File(memory, "w") as file:
         file.attrs.update({"format": FORMAT, **{name: getattr(frames, name) for name in ATTRIBUTES},
                            "ended": frames.summary is not None})
         if frames.summary is not None:
@@ -240,6 +265,7 @@ def save(path, frames):
             _save_group(file.create_group("history"), frames.history._asdict())
         if frames.breaks is not None:
             _save_group(file.create_group("breaks"), frames.breaks)
+    write_bytes(path, memory.getbuffer())
 
 
 def _save_group(group, values):
@@ -279,17 +305,15 @@ def _save_contacts(group, contacts):
 
 def load(path, missing="frames are recorded unless a run has --no-frames, and not in batches"):
     """Frames of a file. Raises RunError when it cannot be read. missing: remedy when there is no file"""
-    require_regular(path, missing)
     try:
-        with h5py.File(path, "r") as file:
+        with opened(path, LAYOUT, missing) as file:
             if file.attrs.get("format") != FORMAT:
                 raise RunError(f"{path}: no recorded frames ({FORMAT})")
-            _check_size(file, path)
             loaded = _load(file)
         if loaded.summary is None:
             frame_log.add_frames(loaded, append_log.read(Path(path).with_name(frame_log.NAME), loaded.run))
             vars(loaded).update(_series(loaded))
-        _check_shapes(loaded)
+        _check_numbers(loaded)
     except RunError:
         raise
     except FAULTS as problem:
@@ -297,29 +321,12 @@ def load(path, missing="frames are recorded unless a run has --no-frames, and no
     return loaded
 
 
-def _check_size(file, path):
-    """Refuse tables that declare more data than the file holds (ours are not compressed)."""
-    declared = []
-    file.visititems(lambda _, item: declared.append(item.nbytes) if isinstance(item, h5py.Dataset) else None)
-    if sum(declared) > Path(path).stat().st_size:
-        raise RunError(f"{path}: its tables declare {sum(declared)} bytes, more than the file holds")
-
-
-def _check_shapes(frames):
-    """Raise ValueError when tables do not fit each other or numbers name elements that do not exist."""
-    e, j, n, count = frames.elements, frames.joints, len(frames.elements.name), len(frames.joints.name)
-    lengths = [(f"elements/{name}", values, n) for name, values in vars(e).items()]
-    lengths += [(f"joints/{name}", values, count) for name, values in vars(j).items()]
-    for name, values, length in lengths:
-        if len(values) != length:
-            raise ValueError(f"{name}: {len(values)} entries instead of {length}")
-        if name in STRINGS and not isinstance(values, list):
-            raise ValueError(f"{name}: no strings")
-    shapes = {"position": (n, 3), "orientation": (n, 4), "load": (count,), "broken": (count,)}
-    for name, shape in shapes.items():
-        if getattr(frames, name).shape != (len(frames.time), *shape):
-            raise ValueError(f"frames/{name}: shape {getattr(frames, name).shape} instead of"
-                             f" {(len(frames.time), *shape)}")
+def _check_numbers(frames):
+    """Raise ValueError when shapes are missing or numbers name elements that do not exist."""
+    e, j, n = frames.elements, frames.joints, len(frames.elements.name)
+    for name in ("vertices", "faces"):
+        if len(getattr(e, name)) != n:
+            raise ValueError(f"elements/{name}: of {len(getattr(e, name))} elements instead of {n}")
     numbers = [("joints/a", j.a, n), ("joints/b", j.b, n),
                *(("contacts/pair", pair, n) for pair in frames.contacts.pair)]
     numbers += [("elements/faces", face, len(vertices)) for faces, vertices in zip(e.faces, e.vertices)
@@ -365,6 +372,9 @@ def _values(group):
 
 
 def _split(flat, start):
+    """Parts of an array, each entry in one."""
+    if not len(start) or start[0] != 0 or start[-1] != len(flat) or np.any(np.diff(start.astype("i8")) < 0):
+        raise ValueError(f"starts of parts that are not 0 ... {len(flat)} in order")
     return [flat[a:b] for a, b in zip(start[:-1], start[1:])]
 
 

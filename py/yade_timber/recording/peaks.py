@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Largest forces of joints and uplifts of column feet, from the tables joints.csv and columns.csv of a run."""
 import math
+import os
 from dataclasses import dataclass, field
 from itertools import zip_longest
 from pathlib import Path
 
 from ..base.errors import RunError
-from ..base.input_file import exists
 from ..base.table import read_csv
 
 JOINTS, COLUMNS, BREAKS = "joints.csv", "columns.csv", "breaks.csv"
@@ -35,7 +35,7 @@ def read(folder):
 
 def _values(path, noun, columns, is_shown):
     """{name: numbers in some columns} of the rows that are shown."""
-    table = rows(path) if exists(path) else []
+    table = rows(path) if os.path.lexists(path) else []
     if not table or not {noun, "state", *columns} <= table[0].keys():
         return {}
     return {row[noun]: tuple(_number(row[column], path, number) for column in columns)

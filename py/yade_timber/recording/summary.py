@@ -5,8 +5,8 @@ from pathlib import Path
 
 from ..base.atomic_write import write_text
 from ..base.errors import RunError
-from ..base.input_file import require_regular
 from ..base.json_types import decode, encode, optional, others, table
+from ..base.record_file import read_record
 from .events import Event, StructureFallen
 from .verdict import Structure
 
@@ -26,10 +26,13 @@ Walls = table("Walls", level=str, other=OtherWalls | None)
 PartOfRecord = table("PartOfRecord", source=str, start_s=float, duration_s=float, scale=float, pga_gal=Components)
 Record = table("Record", source=str, pga_gal=Components, scale=float, dt=float, interpolation_error=float,
                onset_s=float | None, note=str | None, sequence=list[PartOfRecord] | None, strong_end_s=optional(float))
+ColumnDrifts = table("ColumnDrifts", largest=Drifts, median=Drifts)
+"""Peak drifts at the columns of the main structure: at any of them; of the median over them."""
 Columns = table("Columns", total=int, fallen=int, loose=int)
 Energy = table("Energy", input=float, kinetic=float, elastic=float, dissipated=dict[str, float], created=float | None,
                residual=float, residual_fraction=float | None, ground_motion=float, gravity_released=float)
-Solver = table("Solver", sweeps_mean=float, sweeps_max=int, unconverged_steps=int, worst_change_j=float)
+Solver = table("Solver", sweeps_mean=float, sweeps_max=int, unconverged_steps=int, worst_change_j=float,
+               uncarried_overlap_m=optional(float))
 Versions = table("Versions", yade=str, package=str)
 Mode = table("Mode", period_s=float | None, direction=str, mass_share=Components, shape=dict[str, Components])
 ModesAt = table("ModesAt", time_s=float, modes=list[Mode])
@@ -61,7 +64,7 @@ Values = table(
     collapse_time_s=float | None, fallen_structures=list[str], leaning_structures=list[str], peak_drift=Drifts,
     residual_drift=Drifts, final_amplitude=Drifts, still_moving=bool, events=list[Event], energy=Energy, solver=Solver,
     versions=Versions, structures=dict[str, Structure], quantities=Quantities, verdict=str, sentence=str,
-    made_from=dict, ensemble=optional(Ensemble))
+    made_from=dict, ensemble=optional(Ensemble), column_drift=optional(ColumnDrifts))
 TownSummary = table("TownSummary", model=str, verdict=str, verdicts=list[str], collapsed=bool,
                     collapse_time_s=float | None, tilt_time_s=float | None, dt=float, record=Record | None,
                     versions=Versions, events=list[Event], ensemble=optional(Ensemble))
@@ -75,11 +78,11 @@ class Summary(Values):
     def read(cls, folder):
         """Of the run in a folder. Raises RunError."""
         path = Path(folder) / NAME
-        require_regular(path, "no finished run is there: an interrupted one has no summary before it is resumed to its"
-                              " end, a town has those of its lots")
+        text = read_record(path, "no finished run is there: an interrupted one has no summary before it is resumed to"
+                                 " its end, a town has those of its lots")
         try:
-            return parse(path.read_text(encoding="utf-8"))
-        except (OSError, ValueError) as problem:
+            return parse(text)
+        except (ValueError, RecursionError) as problem:
             raise RunError(f"{path}: cannot be read as the summary of a run: {problem}; {ANEW}") from None
 
     def write(self, folder):
@@ -103,9 +106,16 @@ class Summary(Values):
 
     def largest_drift(self, key="peak_drift"):
         """(drift, storey, 'ns' | 'ew') of the largest drift, zero without any. key: an entry with Drifts"""
-        drifts = ((value, storey, direction) for storey, pair in getattr(self, key).items()
-                  for direction, value in pair.items() if value is not None)
-        return max(drifts, default=(0.0, "storey1", "ns"))
+        return _largest(getattr(self, key))
+
+    @property
+    def largest_at_columns(self):
+        """(drift, storey, 'ns' | 'ew', largest of the medians) at the columns of the main structure; None where it
+        is not recorded, as in earlier runs."""
+        if self.column_drift is None:
+            return None
+        drift, storey, direction = _largest(self.column_drift.largest)
+        return drift, storey, direction, _largest(self.column_drift.median)[0]
 
     def main_mode(self, when, direction):
         """The Mode 'before' or 'after' the run that moves most of the mass in a direction, None without one."""
@@ -139,6 +149,13 @@ class Summary(Values):
         """((broken, all) of the joints, (broken, all) of the wall sheets); (0, 0) in a house without walls."""
         counts = self.broken, self.joints
         return tuple(count.total for count in counts), tuple(count.wall_sheets or 0 for count in counts)
+
+
+def _largest(drifts):
+    """(drift, storey, 'ns' | 'ew') of the largest of Drifts, zero without any."""
+    values = ((value, storey, direction) for storey, pair in drifts.items() for direction, value in pair.items()
+              if value is not None)
+    return max(values, default=(0.0, "storey1", "ns"))
 
 
 def parse(text):

@@ -2,8 +2,9 @@
 """Verdict on each structure of a run: undamaged, repairable, unsafe or collapsed.
 
 collapsed   a level has come down by half its storey
-unsafe      a storey drift reached the safety limit, or a column has fallen or lost its last joint
-repairable  a storey drift reached the damage limit, or springs of joints broke
+unsafe      a storey drift or the drift at a column reached the safety limit, or a column has fallen or lost its last
+            joint
+repairable  such a drift reached the damage limit, or springs of joints broke
 undamaged   none of these
 
 Peak drifts decide, since a frame that swings back may have lost its strength. A structure leans when its residual drift
@@ -44,6 +45,7 @@ class Structure:
     verdict: str = field(init=False)
     leans: bool = field(init=False)
     peak_drift: float
+    column_drift: float = 0.0
     residual_drift: float = 0.0
     broken: int = 0
     partly_broken: int = 0
@@ -59,9 +61,10 @@ def _judge(facts):
     """One of STATES."""
     if facts.collapsed:
         return COLLAPSED
-    if facts.peak_drift >= SAFETY.drift or facts.columns_lost:
+    drift = max(facts.peak_drift, facts.column_drift)
+    if drift >= SAFETY.drift or facts.columns_lost:
         return UNSAFE
-    if facts.peak_drift >= DAMAGE.drift or facts.broken or facts.partly_broken:
+    if drift >= DAMAGE.drift or facts.broken or facts.partly_broken:
         return REPAIRABLE
     return UNDAMAGED
 

@@ -9,21 +9,28 @@ YADE's loader creates whatever object the file names, also a PyRunner, which run
 such class, with its namespace, before the first object of it; a file that names other classes than a run writes is
 refused before YADE reads it. `sha256` finds damage, not forgery.
 """
+import errno
 import hashlib
 import json
 import os
 import re
+import resource
 from pathlib import Path
 
 import yade.wrapper as yw
 
 from .. import _class_names
 from ..base.atomic_write import written_from_memory
-from ..base.errors import RunError
-from ..base.input_file import require_regular
+from ..base.errors import RunError, os_errors
+from ..base.json_types import decode, table
+from ..base.record_file import record
+from ..recording.events import Event
+from ..recording.summary import ModesAt
 
 NAME = "checkpoint.yade"
 REMEDY = "run without --resume to start anew"
+Progress = table("Progress", wall_s=float, samples=int, events=list[Event], peaks=dict[str, float],
+                 modes=ModesAt | None, upright=list)
 CLASSES = {*_class_names, "Aabb", "ForceResetter", "InsertionSortCollider", "InteractionLoop"}
 """Classes of objects in a run's scene."""
 O = yw.Omega()
@@ -32,26 +39,38 @@ O = yw.Omega()
 def save(path, identity, progress):
     """Save the scene, whole or not at all. identity: see identity.py; progress: what `load` returns. Raises OSError."""
     with written_from_memory(path) as memory:
-        O.save(str(memory), quiet=True)
+        _save(memory)
         seal = {"identity": identity, "progress": progress, "sha256": hashlib.sha256(memory.read_bytes()).hexdigest()}
         with open(memory, "ab") as file:
             file.write(b"\n" + json.dumps(seal).encode())
 
 
+def _save(path):
+    """Save the scene. Raises OSError, also where Boost says no more than 'output stream error'."""
+    try:
+        O.save(str(path), quiet=True)
+    except RuntimeError as problem:
+        limit = resource.getrlimit(resource.RLIMIT_FSIZE)[0]
+        limited = limit != resource.RLIM_INFINITY and path.stat().st_size >= limit
+        number, reason = (errno.EFBIG, os.strerror(errno.EFBIG)) if limited else (errno.EIO, str(problem))
+        raise OSError(number, reason) from None
+
+
 def load(path, identity):
     """Load the saved scene; returns `progress` as saved. Raises RunError for damage or another identity."""
     path = Path(path)
-    require_regular(path)
-    if path.stat().st_uid != os.geteuid():  # YADE's loader is not safe against every forged file
-        raise RunError(f"{path}: belongs to another user; copy it if you trust its origin, or {REMEDY}")
+    with record(path) as file:
+        if os.fstat(file.fileno()).st_uid != os.geteuid():  # YADE's loader is not safe against every forged file
+            raise RunError(f"{path}: belongs to another user; copy it if you trust its origin, or {REMEDY}")
+        with os_errors(lambda fault: f"{path}: cannot read the checkpoint: {fault}"):
+            content = file.read()
     try:
-        body, _, line = path.read_bytes().rpartition(b"\n")
+        body, _, line = content.rpartition(b"\n")
         seal = json.loads(line)
-        complete = hashlib.sha256(body).hexdigest() == seal["sha256"]
-    except (ValueError, KeyError, TypeError):
+        complete = hashlib.sha256(body).hexdigest() == seal["sha256"] and isinstance(seal["identity"], dict)
+        decode(Progress, seal["progress"])
+    except (ValueError, KeyError, TypeError, RecursionError):
         complete = False
-    except OSError as problem:
-        raise RunError(f"{path}: cannot read the checkpoint: {problem.strerror}") from None
     if not complete:
         raise RunError(f"{path}: damaged, or not a checkpoint of this package; {REMEDY}")
     _require_same(path, seal["identity"], identity)

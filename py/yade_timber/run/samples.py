@@ -33,6 +33,9 @@ class Samples:
         """Drop rows after the present time. size: of the file at the checkpoint. Raises OSError, RunError."""
         if self.log.cut(O.time + O.dt / 2) != size:
             raise RunError(f"{self.log.path}: missing, damaged or older than the checkpoint at {O.time:g} s; {remedy}")
+        for kind, time, content in self.log.records():
+            if kind not in MONITORS or len(content) % np.dtype(float).itemsize:
+                raise RunError(f"{self.log.path}: no rows of a monitor at {time:g} s; {remedy}")
 
     @contextmanager
     def restored(self):

@@ -17,7 +17,7 @@ from ..recording import drift
 from ..recording.history import NAME as HISTORY
 from ..recording.history import History
 from ..recording.peaks import BREAKS
-from ..recording.summary import NAME, Diagnosis, Energy, Solver, Summary, Versions, Walls, Weight
+from ..recording.summary import NAME, ColumnDrifts, Diagnosis, Energy, Solver, Summary, Versions, Walls, Weight
 from ..scene import queries
 from ..scene.engines import find_engine
 from ..text.english import sentence
@@ -42,7 +42,7 @@ def summary(scenario, observed, tables, wall_s, made_from, cut_off=None):
     residual, amplitude = drift.residual(history)
     simulated = round(O.iter * scenario.dt, 9)
     structures = survey.by_structure(state, observed.peaks)
-    created = find_engine(yw.ContactForces).created
+    created = created_energy()
     energy = (energy_balance(queries.energy(), created) if cut_off is None
               else energy_balance(last_energies(history), _finite(created)))
     draft = Summary(
@@ -64,15 +64,25 @@ def summary(scenario, observed, tables, wall_s, made_from, cut_off=None):
         final_amplitude=drift.by_storey(amplitude), still_moving=drift.still_moving(amplitude),
         events=observed.log.sorted(), energy=energy, solver=solver(), versions=Versions(**observer.versions()),
         structures=structures, quantities=quantities.summarised(tables, observed), verdict="", sentence="",
-        made_from=made_from
+        made_from=made_from,
+        column_drift=ColumnDrifts(drift.by_storey(monitor.columnPeak), drift.by_storey(monitor.medianPeak)),
     )
     return judged(draft)
+
+
+def created_energy():
+    """Energy that contacts and joints have created so far [J]: of points and joints that have ceased to exist, debts of
+    stiff joints, and the net error of yielding joints that the step resolves."""
+    contacts, joints = find_engine(yw.ContactForces), find_engine(yw.JointEngine)
+    return contacts.created + contacts.jointDebt + (max(0.0, joints.created) if joints else 0.0)
 
 
 def judged(draft):
     """The Summary with verdict and sentences. The main structure is judged by the HouseMonitor, others by frames."""
     peak, residual = draft.largest_drift()[0], draft.largest_drift("residual_drift")[0]
-    main = replace(draft.main, peak_drift=peak, residual_drift=residual, collapsed=draft.collapsed)
+    at_columns = draft.largest_at_columns or (0.0,)
+    main = replace(draft.main, peak_drift=peak, column_drift=at_columns[0], residual_drift=residual,
+                   collapsed=draft.collapsed)
     draft = replace(draft, structures={**draft.structures, next(iter(draft.structures)): main}, verdict=main.verdict)
     return replace(draft, diagnosis=replace(draft.diagnosis, disagreement=comparison(draft)), sentence=sentence(draft))
 
@@ -112,12 +122,14 @@ def energy_balance(terms, created):
 
 def solver():
     """The part `solver`: sweeps of a computed step, mean and largest; steps that ended before their sweeps had
-    converged, and the largest change of a pair in the last sweep of one, as twice its kinetic energy [J]."""
+    converged, and the largest change of a pair in the last sweep of one, as twice its kinetic energy [J]; the
+    largest overlap that no contact carried [m]."""
     forces, skipper = find_engine(yw.ContactForces), find_engine(yw.RestSkipper)
+    check = find_engine(yw.OverlapCheck)
     computed = O.iter - (round(skipper.skipped / O.dt) if skipper else 0)
     mean = round(forces.sweepsDone / max(1, computed), 3)
     return Solver(sweeps_mean=mean, sweeps_max=forces.sweepsMax, unconverged_steps=forces.unconverged,
-                  worst_change_j=forces.worstChange)
+                  worst_change_j=forces.worstChange, uncarried_overlap_m=check.largest if check else None)
 
 
 def created_too_much(energy):

@@ -17,6 +17,7 @@ from yade.minieigenHP import Quaternion
 
 from .arguments import shown
 from .background import between_steps
+from .containers import LISTS
 
 FORMS = {"Real": "a number", "int": "an integer", "long": "an integer", "bool": "True or False", "string": "a string",
          "Vector3r": "three numbers", "vector<Real>": "a list of numbers", "vector<int>": "a list of integers",
@@ -30,8 +31,8 @@ GEOMETRY = ("vertices", "radius")
 """Attributes of a shape that the geometry of a body follows from."""
 VALIDATED_OF_YADE = ("density",)
 """Attributes of YADE's base classes on which the package's classes depend."""
-RULED = {(yw.Body, "shape"), (yw.Body, "material"), (yw.Body, "state"), (yw.State, "angVel")}
-"""Attributes of YADE's classes whose assignment `background` guards."""
+RULED = {(yw.Body, "shape"), (yw.Body, "material"), (yw.Body, "state"), (yw.State, "angVel"), *LISTS}
+"""Attributes of YADE's classes whose assignment `background` and `containers` guard."""
 FINITE = (yw.State, yw.Aabb, yw.InsertionSortCollider)
 """Classes of YADE's own whose numbers must be finite, too."""
 NOT_ZERO = dict.fromkeys(("ori", "refOri", "se3"), ", and the norm of a quaternion > 0")

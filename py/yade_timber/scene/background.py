@@ -84,14 +84,15 @@ GUARDED = (
     (yw.Serializable, between_steps, ("dict",)),
     (yw.ContactForces, between_steps, ("largestEigenvalue",)),
     (yw.HealthCheck, between_steps, ("check",)),
-    (yw.HouseMonitor, between_steps, ("energy", "peak", "rows")),
+    (yw.HouseMonitor, between_steps, ("columnPeak", "energy", "medianPeak", "peak", "rows")),
     (yw.StructureMonitor, between_steps, ("load", "opening", "pull", "rows", "shear")),
     (yw.JointEngine, between_steps, ("append", "breaks", "joints")),
     (yw.TimberJoint, between_steps, ("broken", "forces", "largestStretches", "load", "plasticStretches", "springs",
                                      "stretches")),
     (yw.ManifoldGeom, between_steps, ("points",)),
     (yw.ManifoldPhys, between_steps, ("points",)),
-    (compiled, between_steps, ("packed_contacts", "packed_joints", "packed_placements", "packed_springs")),
+    (compiled, between_steps, ("dashpot_power", "packed_contacts", "packed_joints", "packed_placements",
+                               "packed_springs")),
 )
 """Class or module, context, its methods and attributes that are called and read within it; which there are depends on
 YADE's version."""

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Bodies: rounded convex polyhedra of timber or snow. Needs a running YADE."""
+import math
+
 import numpy as np
 import yade.wrapper as yw
 from yade.minieigenHP import Quaternion, Vector3
@@ -13,7 +15,8 @@ LEAST_RADIUS = 1e-4
 _TIMBER, _SNOW = yw.TimberMat(), yw.SnowMat()  # the paper's values
 
 
-def timber(young=_TIMBER.young, poisson=_TIMBER.poisson, density=_TIMBER.density, friction=_TIMBER.friction, label=""):
+def timber(young=_TIMBER.young, poisson=_TIMBER.poisson, density=_TIMBER.density, friction=_TIMBER.friction, label="",
+           bearing=None):
     """Material of timber elements.
 
     Parameters
@@ -27,6 +30,9 @@ def timber(young=_TIMBER.young, poisson=_TIMBER.poisson, density=_TIMBER.density
     friction : float
         Friction coefficient [-]; a pair of materials has the smaller of its two coefficients.
     label : str
+    bearing : float, optional
+        Bearing strength, at which contacts yield [Pa]: about 6e6 for softwood across the grain. A pair has the smaller
+        one. By default contacts are elastic, as in the paper and as for stone or steel.
 
     Returns
     -------
@@ -41,6 +47,8 @@ def timber(young=_TIMBER.young, poisson=_TIMBER.poisson, density=_TIMBER.density
                         poisson=arguments.number("timber: poisson", poisson),
                         density=arguments.number("timber: density", density, "kg/m3"),
                         friction=arguments.number("timber: friction", friction),
+                        bearing=(math.inf if bearing is None
+                                 else arguments.positive("timber: bearing", bearing, "Pa", infinite=True)),
                         label=arguments.text("timber: label", label))
 
 

@@ -14,7 +14,7 @@ _FORCES, _RATIO = yw.ContactForces(), yw.Ip2_TimberMat_TimberMat_TimberPhys().da
 O = yw.Omega()
 
 
-def engines(gravity=GRAVITY, ground_motion=None, joints=None, monitor=None, vertex_edge=False, flush_supports=True,
+def engines(gravity=GRAVITY, ground_motion=None, joints=None, monitor=None, vertex_edge=True, flush_supports=True,
             increment=False, damping_ratio=_RATIO, sweeps=_FORCES.sweeps, tolerance=_FORCES.tolerance, health_check=100,
             skip_rest=0):
     """List for ``O.engines`` with the engines that the scene needs.
@@ -30,7 +30,8 @@ def engines(gravity=GRAVITY, ground_motion=None, joints=None, monitor=None, vert
     monitor : HouseMonitor, StructureMonitor or list of them, optional
         By default none.
     vertex_edge : bool
-        Whether vertex-edge and vertex-vertex contacts exist too (the paper ignores them).
+        Whether vertex-edge and vertex-vertex contacts exist too. The paper ignores them: bodies whose edges or corners
+        meet then sink into each other by up to the sum of their rounding radii, and more.
     flush_supports : bool
         Whether a vertex exactly over a face's border is supported.
     increment : bool
@@ -44,7 +45,7 @@ def engines(gravity=GRAVITY, ground_motion=None, joints=None, monitor=None, vert
         Largest change of an island's contact impulses in the last sweep, relative to their root mean square; smaller at
         rest. [-]
     health_check : int
-        Steps between checks for finite numbers; 0: no check of scene and engines at all.
+        Steps between checks for finite numbers; 0: no check of scene, engines and overlaps at all.
     skip_rest : int
         Number of steps of which one is computed while scene and ground are at rest (``RestSkipper.stride``); 0: all are
         computed.
@@ -63,6 +64,8 @@ def engines(gravity=GRAVITY, ground_motion=None, joints=None, monitor=None, vert
     collider = yw.InsertionSortCollider([yw.Bo1_RoundedPolyhedron_Aabb(margin=BOUND_MARGIN)], verletDist=0)
     chain += [yw.ForceResetter(), yw.CollisionTrigger(collider=collider),
               contact_loop(vertex_edge, flush_supports, increment, damping_ratio)]
+    if health_check:
+        chain.append(yw.OverlapCheck())
     gravity = arguments.vector("engines: gravity", gravity, "m/s2")
     joints = find_engine(yw.JointEngine) if joints is None else joint_engine(joints)
     if ground_motion is not None and not isinstance(ground_motion, yw.GroundMotionEngine):

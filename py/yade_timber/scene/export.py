@@ -34,13 +34,14 @@ def export_scene(path):
     ``elements``: id, name, kind, vertices (n, 3) world [m], faces (lists of vertex indices, outward), density (mass
     over volume) [kg/m3], radius [m], fixed, material.
 
-    ``materials``: name to law, density, young [Pa] and poisson, or stiffness_per_kg [N/m/kg]. ``friction``: name, name,
+    ``materials``: name to law, density, young [Pa], poisson and, if finite, bearing [Pa], or stiffness_per_kg
+    [N/m/kg]. ``friction``: name, name,
     coefficient.
 
     ``joints``: elements (ids), points (n, 3) world [m], normal (from the first to the second), stiffness (kn, ks)
-    [N/m], strength [N] (null: unbreakable), reading 'spring' or 'joint', damping_ratio [-], broken (one flag per
-    spring), kind, name, slip (null: brittle; else the parameters and the history of each spring); none of a removed
-    body.
+    [N/m], strength [N] (null: unbreakable), reading 'spring' or 'joint', damping_ratio [-], damping_time [s],
+    initial_damping, broken (one flag per spring), kind, name, slip (null: brittle; else the parameters and the history
+    of each spring); none of a removed body.
     """
     for body in O.bodies:
         if not isinstance(body.shape, yw.RoundedPolyhedron):
@@ -67,7 +68,8 @@ def describe_material(material):
     common = {"density": material.density, "friction": material.friction}
     if isinstance(material, yw.SnowMat):
         return {"law": "snow", "stiffness_per_kg": material.stiffnessPerMass, **common}
-    return {"law": "timber", "young": material.young, "poisson": material.poisson, **common}
+    bearing = {"bearing": material.bearing} if math.isfinite(material.bearing) else {}
+    return {"law": "timber", "young": material.young, "poisson": material.poisson, **bearing, **common}
 
 
 def material_name(material, materials):
@@ -98,6 +100,7 @@ def describe_joint(joint):
             "normal": list(state.ori * joint.normal), "stiffness": [joint.kn, joint.ks],
             "strength": joint.strength if math.isfinite(joint.strength) else None,
             "reading": "joint" if joint.perJoint else "spring", "damping_ratio": joint.dampingRatio,
+            "damping_time": joint.dampingTime, "initial_damping": joint.initialDamping,
             "broken": [bool(b) for b in joint.broken], "kind": joint.kind, "name": joint.name,
             "slip": describe_slip(joint, state) if joint.law == "slip" else None}
 

@@ -71,7 +71,7 @@ def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strengt
     Raises
     ------
     ValueError
-        For unknown bodies, no points, and values out of range.
+        For unknown bodies, no points, values out of range, and a joint that is there already.
     """
     id1, id2 = arguments.present_ids("connect", id1, id2)
     if id1 == id2:
@@ -82,8 +82,11 @@ def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strengt
         arguments.instance("connect: slip", slip, SlipLaw, "a SlipLaw or None")
         numbers = {key: arguments.number(f"connect: slip.{key}", value) for key, value in vars(slip).items()}
         springs = replace(springs, law="slip", **numbers)
-    joint = make_joint(id1, id2, springs)
-    (find_engine(yw.JointEngine) or add_joint_engine()).append(joint)
+    joint, engine = make_joint(id1, id2, springs), find_engine(yw.JointEngine) or add_joint_engine()
+    if engine.hasSame(joint):
+        raise ValueError(f"connect: bodies {id1} and {id2} have the same joint at these points already: give another"
+                         " stiffness or strength to one joint")
+    engine.append(joint)
     return joint
 
 
@@ -135,15 +138,31 @@ def make_joint(id1, id2, springs):
     s1, s2 = O.bodies[id1].state, O.bodies[id2].state
     points = [Vector3(*p) for p in springs.points]
     direction = Vector3(*springs.normal) if springs.normal is not None else s2.pos - s1.pos
-    slip = {"frictionShare": springs.friction_share, "softeningStretch": springs.softening_stretch,
-            "ultimateStretch": springs.ultimate_stretch, "envelope": [Vector2(*point) for point in springs.envelope]}
     return yw.TimberJoint(id1=id1, id2=id2, anchors1=[s1.ori.conjugate() * (p - s1.pos) for p in points],
                           anchors2=[s2.ori.conjugate() * (p - s2.pos) for p in points],
                           normal=s1.ori.conjugate() * direction.normalized(), kn=springs.kn, ks=springs.ks,
                           strength=springs.strength, perJoint=PER_JOINT[springs.per],
                           broken=[int(springs.broken)] * len(points), dampingRatio=springs.damping_ratio,
-                          kind=springs.kind, name=springs.name, law=springs.law,
-                          **(slip if springs.law == "slip" else {}))
+                          dampingTime=springs.damping_time, initialDamping=springs.initial_damping,
+                          kind=springs.kind, name=springs.name, law=springs.law, **_LAWS[springs.law](springs))
+
+
+def _slip(springs):
+    """Attributes of the law slip."""
+    return {"frictionShare": springs.friction_share, "softeningStretch": springs.softening_stretch,
+            "ultimateStretch": springs.ultimate_stretch, "envelope": [Vector2(*point) for point in springs.envelope]}
+
+
+def _wall(springs):
+    """Attributes of the law wall."""
+    cycles = springs.cycles
+    return {"envelope": [Vector2(*point) for point in springs.envelope], "frictionForce": cycles.friction_force,
+            "pinchedStiffness": cycles.pinched_stiffness, "reloadTarget": cycles.reload_target,
+            "reloadShare": cycles.reload_share, "reloadStiffness": cycles.reload_stiffness,
+            "reloadStretch": cycles.reload_stretch, "reloadPower": cycles.reload_power}
+
+
+_LAWS = {"brittle": lambda springs: {}, "slip": _slip, "wall": _wall}
 
 
 def joins_bodies(joint):

@@ -47,7 +47,8 @@ class Springs:
 
 @dataclass(frozen=True)
 class Mode:
-    """omega2 [1/s2]; shape (N, 6): displacement [-], rotation [1/m] of bodies; mass (3,): effective [kg]."""
+    """omega2 [1/s2]; shape (N, 6): displacement [-], rotation [1/m] of bodies, of unit modal mass; mass (3,): effective
+    [kg]."""
 
     omega2: float
     shape: np.ndarray
@@ -68,12 +69,12 @@ def springs():
 
 
 @between_steps()
-def natural_modes(share=0.05):
+def natural_modes(share=0.05, bodies=None):
     """Modes of effective mass east or north >= `share` of the free mass, unstable ones and long periods first.
 
-    Only the SEARCHED lowest modes are looked at. Empty without springs.
+    Only the SEARCHED lowest modes are looked at. Empty without springs. bodies: ids of those that move, default all
     """
-    free = [b for b in O.bodies if b is not None and not b.state.blockedDOFs]
+    free = [b for b in O.bodies if b is not None and not b.state.blockedDOFs and (bodies is None or b.id in bodies)]
     mass, linearised = sum(b.state.mass for b in free), springs()
     free = _held(linearised, free)
     if not free:

@@ -78,8 +78,8 @@ def energy():
         Energies [J]: ``kinetic``; ``gravity`` (potential, from the reference placement); ``elastic_contacts`` (from the
         placement of bodies in contact), ``elastic_joints``; ``ground_motion`` (work done by it), ``imposed_velocity``
         (by `set_velocity`, and by fixed bodies that move); dissipated: ``dashpot_normal``, ``dashpot_shear``,
-        ``friction``, ``broken_springs``, ``lost_contacts`` (points that vanished under load), ``joint_dashpot``,
-        ``joint_yield``.
+        ``friction``, ``crushing`` (contacts at their bearing strength), ``broken_springs``, ``lost_contacts`` (points
+        that vanished under load), ``joint_dashpot``, ``joint_yield``.
         The sum of all terms but ``ground_motion`` and ``imposed_velocity``, minus these two, is constant, unless
         engines of other packages apply forces (``ForceEngine``, ``AxialGravityEngine``): no term has their work.
     """

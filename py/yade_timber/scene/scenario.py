@@ -2,19 +2,23 @@
 """House and ground motion -> scene in YADE. Nothing here is particular to the houses A, B, C: they are files."""
 from dataclasses import dataclass, field
 
+import numpy as np
 import yade.wrapper as yw
 
 from ..base.colors import KINDS
+from ..base.joint_kinds import WALL_KINDS
 from ..base.time_step import DEFAULT_DT, rest_stride
 from ..house import build_house, load_house
 from ..house.disturbance import disturb
 from ..house.errors import StepError
 from ..house.friction import own_coefficient
 from ..plugin import compiled
-from . import bodies, engines
+from . import bodies, engines, sway
 from .joints import make_joint
 from .queries import stable_dt
 
+SETTLING = 0.2
+"""Time in which a house comes to rest under its weight before its sway modes are computed. [s]"""
 O = yw.Omega()
 
 
@@ -24,9 +28,9 @@ class Scenario:
     None; snow_depth [m].
 
     scale: factor on the motion [-]; delay: time at which it begins [s]; dt, duration [s]; until_collapse: whether a
-    collapse ends the run; joint_damping: damping ratio of all joints [-], wall_level: of walls of a rated multiplier,
-    None for both: the house's own; disturb: seed of the house's disturbance, None: none; options: of `engines.engines`;
-    record, other_walls: of the summary, on the motion and on walls of the other level.
+    collapse ends the run; joint_damping: damping ratio of sway and joints [-], wall_level: of walls of a rated
+    multiplier, None for both: the house's own; disturb: seed of the house's disturbance, None: none; options: of
+    `engines.engines`; record, other_walls: of the summary, on the motion and on walls of the other level.
     """
 
     name: str
@@ -49,8 +53,10 @@ class Scenario:
         """HouseModel of the run. Raises HouseError."""
         model = build_house(load_house(self.house), snow_depth=self.snow_depth, wall_level=self.wall_level)
         if self.joint_damping is not None:
+            model.law = {**model.law, "joint_damping": self.joint_damping}
             for joint in model.joints:
-                joint.damping_ratio = self.joint_damping
+                if joint.kind not in WALL_KINDS:
+                    joint.damping_ratio = self.joint_damping
         if self.disturb is not None:
             disturb(model, self.disturb)
         return model
@@ -59,6 +65,8 @@ class Scenario:
 def build(scenario):
     """Build the scenario's scene in an emptied YADE; returns the HouseModel."""
     model = scenario.build_model()
+    if model.law["joint_damping"] > 0 and any(joint.kind in WALL_KINDS for joint in model.joints):
+        damp_sway(model)
     O.reset()
     ids = add_elements(model)
     joints = add_joints(model, ids)
@@ -71,6 +79,27 @@ def build(scenario):
     O.dt = scenario.dt
     check_step(model)
     return model
+
+
+def damp_sway(model):
+    """Give the walls of a model the damping times with which its structures sway with the damping ratio of its law.
+
+    The scene in YADE is replaced by the house at rest under its weight.
+    """
+    O.reset()
+    ids = add_elements(model)
+    O.engines = engines.engines(joints=add_joints(model, ids), **law_options(model.law))
+    O.dt = min(DEFAULT_DT, stable_dt(compiled.joint_step_factor))
+    try:
+        for _ in range(round(SETTLING / O.dt)):
+            O.step()
+    except RuntimeError:
+        return  # which the run will meet and report itself
+    for structure in model.storey_levels:
+        bodies = {ids[element.name] for element in model.elements if element.group == structure}
+        chosen = np.array([joint.group == structure and joint.kind in WALL_KINDS for joint in model.joints], bool)
+        for joint, time in zip(model.joints, sway.damping_times(model.law["joint_damping"], bodies, chosen)):
+            joint.damping_time += float(time)
 
 
 def check_step(model):
@@ -106,7 +135,8 @@ def make_material(name, spec, model):
     friction = own_coefficient(name, spec["law"], model.friction)
     if spec["law"] == "snow":
         return bodies.snow(spec["density"], spec["stiffness_per_kg"], friction, label=name)
-    return bodies.timber(spec["young"], spec["poisson"], spec["density"], friction, label=name)
+    return bodies.timber(spec["young"], spec["poisson"], spec["density"], friction, label=name,
+                         bearing=model.law["bearing"] or None)
 
 
 def add_joints(model, ids):
@@ -125,10 +155,11 @@ def level_marks(model, structure):
 
 
 def house_monitor(model, ids):
-    """HouseMonitor of the main structure's storeys; their height is that of the columns."""
+    """HouseMonitor of the main structure's storeys and columns; their height is that of the columns."""
     main, storeys = next(iter(model.storey_levels.items()))
-    marks = level_marks(model, main)
+    marks, columns = level_marks(model, main), model.of_kind("column", group=main)
     return yw.HouseMonitor(bodies=[ids[e.name] for e, _ in marks], levels=[level for _, level in marks],
+                           columnBodies=[ids[e.name] for e in columns], columnStoreys=[e.storey for e in columns],
                            heights=[head - foot for _, (foot, head) in sorted(storeys.items())])
 
 

@@ -2,7 +2,8 @@
 """One line about each object of the package's classes, and a table of a joint's springs, for the prompt: units, four
 digits.
 """
-ATTRIBUTES = {"TimberMat": (("young", "Pa"), ("poisson", ""), ("density", "kg/m3"), ("friction", "")),
+ATTRIBUTES = {"TimberMat": (("young", "Pa"), ("poisson", ""), ("density", "kg/m3"), ("friction", ""),
+                            ("bearing", "Pa")),
               "SnowMat": (("density", "kg/m3"), ("friction", "")),
               "GroundMotionEngine": (("start", "s"), ("scale", "")), "HouseMonitor": (("interval", "s"),),
               "StructureMonitor": (("interval", "s"),),

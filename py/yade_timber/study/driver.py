@@ -6,6 +6,7 @@ the other tasks. An interrupted run continues from its checkpoint. run.json reco
 messages.
 """
 import json
+import math
 import os
 import shutil
 import signal
@@ -18,9 +19,11 @@ from pathlib import Path
 
 from ..base.atomic_write import make_folder, remove, write_text
 from ..base.errors import RunError
+from ..base.json_types import require
 from ..base.lock import is_locked, locked
 from ..base.options import options
 from ..base.processors import processors
+from ..base.record_file import open_record, read_record, record
 from ..recording.summary import NAME as SUMMARY
 from ..recording.summary import Summary
 from ..run.identity import made_from
@@ -32,6 +35,8 @@ DRIVER = ".driver"
 STATES = ("done", "failed", "unfinished")
 STOPS = ("SIGHUP", "SIGINT", "SIGKILL", "SIGTERM")
 """Signals after which a run is continued; others are crashes."""
+END_OF_LOG = 100_000
+"""Part of a log in which the error message is looked for. [bytes]"""
 POLL = 0.2
 """Wall time between two checks of the running processes. [s]"""
 SAVE_TIME = 60.0
@@ -71,13 +76,26 @@ class Task:
         """One of STATES."""
         return "failed" if self.error else "done" if self.summary is not None else "unfinished"
 
+    def record(self, error):
+        """Write run.json. error: message of a failed run, None of others"""
+        content = {"status": "failed" if error else "done", "error": error}
+        write_text(self.folder / END, json.dumps(content) + "\n")
+
     def is_missing(self, retry):
         """Whether the run is to be started; retry: failed runs, too."""
         return self.summary is None and (retry or not self.error)
 
 
 def _read(path):
-    return json.loads(path.read_text()) if path.is_file() else None
+    """Table of a JSON file, None without the file. Raises RunError."""
+    if not os.path.lexists(path):
+        return None
+    try:
+        return require(json.loads(read_record(path)), dict, "content")
+    except (ValueError, RecursionError) as problem:
+        if isinstance(problem, RunError):
+            raise
+        raise RunError(f"{path}: cannot be read: {problem}; remove it, or take another folder") from None
 
 
 def run_missing(tasks, scripts, jobs=None, report=print, retry=True):
@@ -92,6 +110,9 @@ def run_missing(tasks, scripts, jobs=None, report=print, retry=True):
     """
     tasks = list(dict.fromkeys(tasks))
     missing = [task for task in tasks if task.is_missing(retry)]
+    for task in set(tasks).difference(missing):
+        if not os.path.lexists(task.folder / END):  # its driver was killed before the run ended
+            task.record(None)
     if missing:
         report(f"{len(missing)} of {len(tasks)} runs to do")
         _run_all(missing, scripts, jobs or processors(), report)
@@ -140,9 +161,7 @@ class _Process:
             remove(task.folder / name)
         arguments = [*command(scripts / f"{task.script}.py"), *task.words()]
         path = task.folder / LOG
-        if path.exists() and not path.is_file():  # opening a pipe without a reader never ends
-            raise RunError(f"{path}: no regular file; remove it, or take another folder")
-        with open(path, "w") as log:
+        with open_record(path, os.O_RDWR | os.O_CREAT | os.O_TRUNC) as log:
             self.child = subprocess.Popen(arguments, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
                                           start_new_session=True, env={**os.environ, "OMP_NUM_THREADS": "1"})
 
@@ -161,7 +180,7 @@ class _Process:
         if ended_by in STOPS:
             return f"stopped by {ended_by}; the next start continues this run"
         error = f"crashed ({ended_by}); see {self.task.folder / LOG}" if ended_by else self._error()
-        write_text(self.task.folder / END, json.dumps({"status": "failed" if error else "done", "error": error}) + "\n")
+        self.task.record(error)
         if error:
             return f"failed: {error}"
         again = " again (other options, files or package)" if self.outdated else ""
@@ -170,7 +189,7 @@ class _Process:
     def _error(self):
         """Error message of the run, or None."""
         if self.child.returncode:
-            return last_error((self.task.folder / LOG).read_text(errors="replace"), self.child.returncode)
+            return last_error(_end(self.task.folder / LOG), self.child.returncode)
         if self.task.summary is None:
             return (f"the run used another yade_timber than {Path(__file__).parents[1]}: start this script with YADE's"
                     " Python")
@@ -181,6 +200,13 @@ def last_error(text, status):
     """Error message of a script that has ended with an exit status. text: what it printed"""
     lines = [line.strip() for line in text.split("\n") if line.strip()]
     return lines[-1].removeprefix("error: ") if lines else f"exit status {status}"
+
+
+def _end(path):
+    """The last text of a log."""
+    with record(path, limit=math.inf) as file:
+        file.seek(max(0, os.fstat(file.fileno()).st_size - END_OF_LOG))
+        return file.read(END_OF_LOG).decode(errors="replace")
 
 
 def _signal(status):

@@ -9,6 +9,8 @@ CONVERGED = 1e-6
 """Share of the energy put in that unconverged steps may lack without a remark. [-]"""
 SMALL = 1e-3
 """Drifts below this are not distinguished. [-]"""
+TORSION = 1.1
+"""Drift at a column over that of the centre from which a sentence states it. [-]"""
 LONGEST_TEXT = 400
 """Letters of a text from data that are shown; Agg cannot draw a line of 32768 pixels."""
 ORIGIN = {"none": "No ground motion", "motion": "Ground motion", "record": "Record", "intensity": "JMA intensity",
@@ -106,8 +108,21 @@ def outcome(summary):
     limit = verdict.passed(drift)
     meaning = (f"beyond the {limit.name} of {ratio(limit.drift)}" if limit
                else f"below the {verdict.DAMAGE.name} of {ratio(verdict.DAMAGE.drift)}")
+    torsion = at_columns(summary)
     lean = " and leans at the end" if summary.main.leans else ""
-    return f"is {summary.main.verdict}{lean}: peak storey drift {peak}, {meaning}"
+    return f"is {summary.main.verdict}{lean}: peak storey drift {peak}, {meaning}{torsion}"
+
+
+def at_columns(summary):
+    """', 1/12 N-S at a column (median 1/85), beyond the ...' where that is larger than the drift of the centre; else
+    empty."""
+    drift, _, direction, median = summary.largest_at_columns or (0.0, "", "", 0.0)
+    centre = summary.largest_drift()[0]
+    if drift < max(SMALL, TORSION * centre):
+        return ""
+    limit, before = verdict.passed(drift), verdict.passed(centre)
+    beyond = f", beyond the {limit.name}" if limit and limit != before else ""
+    return f", {directed(drift, direction)} at a column (median {ratio(median)}){beyond}"
 
 
 def other_walls(summary):

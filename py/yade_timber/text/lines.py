@@ -27,9 +27,10 @@ def verdicts(summary):
         if facts.collapsed:
             yield f"{name.capitalize()}: {fall(name, summary)}."
             continue
-        limit = verdict.passed(facts.peak_drift)
-        reason = f"peak drift {ratio(facts.peak_drift)}" + (f" reaches the {limit.name} of {ratio(limit.drift)}"
-                                                            if limit else "")
+        peak = max(facts.peak_drift, facts.column_drift)
+        limit = verdict.passed(peak)
+        reason = f"peak drift {ratio(peak)}{' at a column' * (peak > facts.peak_drift)}"
+        reason += f" reaches the {limit.name} of {ratio(limit.drift)}" if limit else ""
         columns = f"; {counted(facts.columns_lost, 'column')} lost" if facts.columns_lost else ""
         yield f"{name.capitalize()}: {facts.verdict}{', leans' if facts.leans else ''}; {reason}{columns}."
 
@@ -50,7 +51,11 @@ def drifts(summary):
     peak, storey, direction = summary.largest_drift()
     left, _, side = summary.largest_drift("residual_drift")
     moving = "; still moving at the end" if summary.still_moving else ""
-    return (f"Largest storey drift {directed(peak, direction)} in {storey_name(storey)}, residual drift"
+    columns = ""
+    if summary.largest_at_columns:
+        at_column, _, axis, median = summary.largest_at_columns
+        columns = f" of the centre, {directed(at_column, axis)} at a column (median {ratio(median)})"
+    return (f"Largest storey drift {directed(peak, direction)} in {storey_name(storey)}{columns}, residual drift"
             f" {directed(left, side)}{moving}.")
 
 

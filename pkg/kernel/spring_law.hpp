@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// What a law of joint springs states for a step that does not resolve them (spring_step.hpp). Signs as in
+/// joint_law.hpp; stretches and forces in the frame of body A.
+#pragma once
+#include "simd.hpp"
+#include <vector>
+
+namespace timber {
+
+/// A spring at the end of a step.
+struct SpringState {
+	Vec3 force = Vec3::Zero(); ///< f on A [N]
+	/// Of the force by the stretch: symmetric, positive semidefinite [N/m]
+	Mat3 tangent = Mat3::Zero();
+	double energy = 0; ///< U: what it could return [J]
+	double dissipated = 0; ///< D >= 0, on the straight path from the stretch before the step [J]
+	bool breaks = false; ///< exceeds its strength or ultimate stretch
+};
+
+/// Springs of a joint with their histories.
+class SpringLaw {
+public:
+	virtual ~SpringLaw() = default;
+	/// State at the end of the straight path between two stretches, the first of which is that of the history [m].
+	/// The history stays. Along a path that goes on the force must not fall: a law that softens keeps its force
+	/// here, and loses it in commit().
+	virtual SpringState trial(size_t spring, const Vec3& from, const Vec3& to) const = 0;
+	/// The same with all of the law; the history goes on to the second stretch.
+	virtual SpringState commit(size_t spring, const Vec3& from, const Vec3& to) = 0;
+	/// Applies a strength that the springs share to trial states. shared: out, unit vectors of the forces that it
+	/// limits, of each spring. Returns kappa: the tangent of all forces is that of the states minus kappa s s^T
+	/// with the vector s of all entries of `shared` [N/m]; 0 without such a limit, or below it.
+	virtual double limit(std::vector<SpringState>& states, std::vector<Vec3>& shared) const
+	{
+		(void)states, (void)shared;
+		return 0;
+	}
+};
+
+} // namespace timber

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "spring_step.hpp"
+#include "constants.hpp"
+#include "preconditions.hpp"
+#include "solver_body.hpp"
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cassert>
+
+namespace timber {
+namespace {
+
+	/// F by (2) of a spring whose state at z1 is `end`. way: z1 - z0 [m].
+	Vec3 meanForce(const SpringState& start, const SpringState& end, const Vec3& way)
+	{
+		const Vec3 mean = (start.force + end.force) / 2;
+		const double square = way.squaredNorm();
+		if (square == 0) return mean;
+		const double missing = end.energy - start.energy + end.dissipated - mean.dot(way),
+		             largest = (end.force - start.force).norm() / 2 * std::sqrt(square);
+		// On a short way the rounding of the energies would be a force
+		if (std::abs(missing) <= springTolerance * (start.energy + end.energy + end.dissipated)) return mean;
+		return mean + std::max(-largest, std::min(missing, largest)) / square * way;
+	}
+
+	/// Tangent of F by z1: half of that of f1, with the exact slope along the way.
+	Mat3 meanTangent(const SpringState& end, const Vec3& force, const Vec3& way)
+	{
+		Mat3 tangent = end.tangent / 2;
+		const double square = way.squaredNorm();
+		if (square == 0) return tangent;
+		const Vec3 along = way / std::sqrt(square), turned = tangent * along;
+		const double half = along.dot(turned), slope = std::max(0., (end.force - force).dot(way) / square);
+		if (slope >= half) tangent += (slope - half) * along * along.transpose();
+		else tangent -= (1 - slope / half) / half * turned * turned.transpose();
+		return tangent;
+	}
+
+} // namespace
+
+SpringSteps::SpringSteps(std::unique_ptr<SpringLaw> l, std::vector<SpringStep> steps, double stored, double h)
+        : law(std::move(l))
+        , states(steps.size())
+        , shared(steps.size(), Vec3::Zero())
+        , springs(std::move(steps))
+        , account(stored)
+{
+	assert(law && h > 0);
+	for (SpringStep& s : springs) {
+		assert(isFinite(s.from) && isFinite(s.placed) && isFinite(s.applied) && isFinite(s.rates));
+		s.start = law->trial(s.spring, s.from, s.from);
+		applied -= h * s.rates.transpose() * s.applied;
+	}
+}
+
+double SpringSteps::tangent(const JointStiffness& stiffness) const
+{
+	double sum = 0;
+	for (const SpringStep& s : springs)
+		sum += s.start.tangent.trace();
+	return sum / (double(springs.size()) * (stiffness.normal + 2 * stiffness.shear));
+}
+
+double SpringSteps::startEnergy() const
+{
+	double energy = 0;
+	for (const SpringStep& s : springs)
+		energy += s.start.energy;
+	return energy;
+}
+
+double SpringSteps::explicitDefect(double h, const Vec6& after) const
+{
+	double energy = 0;
+	for (size_t i = 0; i < springs.size(); ++i) {
+		const Vec3 way = h / 2 * (springs[i].rates * after);
+		energy += way.dot(springs[i].start.tangent * way) / 2;
+	}
+	return energy;
+}
+
+Vec6 SpringSteps::warmStart(double h) const
+{
+	Vec6 impulse = -applied;
+	for (const SpringStep& s : springs)
+		impulse -= h * s.rates.transpose() * s.force;
+	return impulse;
+}
+
+/// Stretches (1) and forces (2) for the modal velocities after the step. Returns kappa of SpringLaw::limit().
+double SpringSteps::tryStretches(double h, const Vec6& after)
+{
+	for (size_t i = 0; i < springs.size(); ++i) {
+		SpringStep& s = springs[i];
+		s.stretch = s.placed + h / 2 * (s.rates * after);
+		states[i] = law->trial(s.spring, s.from, s.stretch);
+	}
+	const double kappa = law->limit(states, shared);
+	for (size_t i = 0; i < springs.size(); ++i)
+		springs[i].force = meanForce(springs[i].start, states[i], springs[i].stretch - springs[i].from);
+	return kappa;
+}
+
+/// r of (3).
+Vec6 SpringSteps::residual(const ModalStep& step, const Vec6& free, const Vec6& after) const
+{
+	Vec6 r = after - free + step.decay.cwiseProduct(step.before + after) + applied;
+	for (const SpringStep& s : springs)
+		r += step.h * s.rates.transpose() * s.force;
+	return r;
+}
+
+/// Of r by eta'.
+Mat6 SpringSteps::slope(const ModalStep& step, double kappa) const
+{
+	Mat6 matrix = Mat6::Zero();
+	Vec6 together = Vec6::Zero();
+	for (size_t i = 0; i < springs.size(); ++i) {
+		const SpringStep& s = springs[i];
+		// With a shared strength the slope along one spring's way depends on the other springs
+		const Mat3 tangent
+		        = kappa > 0 ? Mat3(states[i].tangent / 2) : meanTangent(states[i], s.force, s.stretch - s.from);
+		matrix += s.rates.transpose() * tangent * s.rates;
+		if (kappa > 0) together += s.rates.transpose() * shared[i];
+	}
+	matrix = step.h * step.h / 2 * (matrix - kappa / 2 * together * together.transpose());
+	matrix.diagonal().array() += 1 + step.decay.array();
+	return matrix;
+}
+
+/// A Newton step from `after`, shortened until r falls. Returns whether it does.
+bool SpringSteps::improve(const ModalStep& step, const Vec6& free, Vec6& after, NewtonPoint& point)
+{
+	const Vec6 change = slope(step, point.kappa).ldlt().solve(point.residual), last = after;
+	for (double share = 1; share > springLeastShare; share /= 2) {
+		after = last - share * change;
+		const double kappa = tryStretches(step.h, after);
+		const Vec6 r = residual(step, free, after);
+		if (r.squaredNorm() < point.residual.squaredNorm()) {
+			point = { r, kappa };
+			return true;
+		}
+		if (change.squaredNorm() <= springTolerance * after.squaredNorm()) break; // rounding
+	}
+	after = last;
+	tryStretches(step.h, after);
+	return false;
+}
+
+Vec6 SpringSteps::impulse(const ModalStep& step, const Vec6& free, Vec6 after)
+{
+	const double kappa = tryStretches(step.h, after),
+	             size = (free - applied).squaredNorm() + free.squaredNorm() + step.before.squaredNorm();
+	NewtonPoint point { residual(step, free, after), kappa };
+	for (int k = 0; k < springIterations; ++k) {
+		if (point.residual.squaredNorm() <= springTolerance * springTolerance * size) break;
+		if (!improve(step, free, after, point)) break;
+	}
+	// The law's impulse also where the method has not converged: within the strength
+	return withinAccount(step, free, after - free - point.residual);
+}
+
+/// Impulse whose springs return at most the account: (4).
+Vec6 SpringSteps::withinAccount(const ModalStep& step, const Vec6& free, const Vec6& impulse) const
+{
+	const Vec6 sum = step.before + free + impulse, dashpots = -step.decay.cwiseProduct(sum),
+	           spring = impulse - dashpots + applied;
+	// Rounding of both sides is no excess: linear springs return all that they have stored
+	const double available = std::max(0., account), rounding = springTolerance * spring.norm() * sum.norm();
+	if (spring.dot(sum) <= 2 * available + rounding) return impulse;
+	// With the share s of `spring` the velocity after the step is (base + s spring) / (1 + x)
+	const Vec6 weight = (1 + step.decay.array()).inverse(),
+	           base = free - applied - step.decay.cwiseProduct(step.before);
+	const double linear = spring.dot(step.before + weight.cwiseProduct(base)),
+	             square = spring.dot(weight.cwiseProduct(spring));
+	if (linear + square <= 2 * available) return impulse;
+	const Vec6 after = weight.cwiseProduct(base + largestShare(linear, square, available) * spring);
+	return after - free;
+}
+
+void SpringSteps::finish(const ModalStep& step, const Vec6& impulse, const Vec6& after)
+{
+	const Vec6 sum = step.before + after;
+	account -= (impulse + step.decay.cwiseProduct(sum) + applied).dot(sum) / 2;
+	std::vector<Vec3> forces;
+	for (const SpringStep& s : springs)
+		forces.push_back(s.force);
+	tryStretches(step.h, after);
+	double energy = 0;
+	for (size_t i = 0; i < springs.size(); ++i) {
+		SpringStep& s = springs[i];
+		const bool breaks = states[i].breaks;
+		if (!breaks) states[i] = law->commit(s.spring, s.from, s.stretch);
+		s.force = forces[i];
+		s.end = states[i];
+		s.breaks = breaks || states[i].breaks;
+		if (!s.breaks) energy += states[i].energy;
+	}
+	dissipated = std::max(0., account - energy);
+	account = std::min(account, energy);
+}
+
+} // namespace timber

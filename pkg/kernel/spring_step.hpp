@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Springs of a joint that a step h does not resolve: implicit, exact in energy, within the strength of the joint.
+///
+/// Velocities are those of the half steps. The state of these springs is, too: z is the stretch in the middle between
+/// two placements, z0 before the step and
+///     z1 = d + h/2 G eta'                                                                       (1)
+/// after it, with the stretch d at the placement, the modal velocities eta' after the step (joint_modes.hpp) and the
+/// rates G of the stretch by them. From the states of the law (spring_law.hpp) at both ends follows the force of the
+/// step, the discrete gradient
+///     F = (f0 + f1) / 2 + lambda (z1 - z0),   F.(z1 - z0) = U1 - U0 + D                          (2)
+/// (Gonzalez, J. Nonlinear Sci. 6 (1996) 449-467), whose work is what the spring stores and dissipates. Of a linear
+/// spring it is the trapezoidal rule, Newmark's method with beta = 1/4. F lies between f0 and f1 as far as their
+/// difference is concerned: |lambda (z1 - z0)| <= |f1 - f0| / 2. It exceeds no strength that f0 and f1 keep.
+///
+/// With the impulses -x (eta + eta') of the dashpots, E the modal velocity without impulses of the joint, and q_a the
+/// part of its spring impulses that E contains already, the velocity after the step is the root of
+///     r = eta' - E + x (eta + eta') + h sum G^T F + q_a                                           (3)
+/// which increases with eta' (forces do not fall): Newton's method with the matrix 1 + x + h2/4 sum G^T f' G, f' the
+/// tangents.
+///
+/// Account A: the work that the bodies have done on the springs as far as it is neither returned nor dissipated. The
+/// springs return at most A,
+///     q_s.(eta + eta') / 2 <= A,   q_s = -h sum G^T F                                             (4)
+/// After the step A is at most U1; the rest is dissipated: by yielding, with springs that break, and where velocities
+/// were imposed between two steps. In other steps (4) follows from (2).
+#pragma once
+#include "joint_law.hpp"
+#include "spring_law.hpp"
+#include <Eigen/Core>
+#include <memory>
+
+namespace timber {
+
+using Vec6 = Eigen::Matrix<double, 6, 1>;
+using Mat6 = Eigen::Matrix<double, 6, 6>;
+using Mat36 = Eigen::Matrix<double, 3, 6>;
+
+/// An unbroken spring in a step. Stretches and forces in the axes of A.
+struct SpringStep {
+	size_t spring; ///< index in the joint
+	Vec3 from; ///< z0 [m]
+	Vec3 placed; ///< d [m]
+	Vec3 applied; ///< force on A by which other engines have accelerated the bodies already [N]
+	Mat36 rates; ///< G [kg^-1/2]
+	Vec3 force; ///< F; before the sweeps: of the last step [N]
+	SpringState start = {}; ///< at z0
+	Vec3 stretch = Vec3::Zero(); ///< z1 [m]
+	SpringState end = {}; ///< at z1, after SpringSteps::finish()
+	bool breaks = false; ///< after SpringSteps::finish()
+};
+
+/// Modal velocities and damping of a joint in a step.
+struct ModalStep {
+	double h; ///< [s]
+	const Vec6 &before, &decay; ///< eta, x
+};
+
+/// Springs of a joint in a step.
+class SpringSteps {
+	std::unique_ptr<SpringLaw> law;
+	std::vector<SpringState> states; ///< of the springs at z1
+	std::vector<Vec3> shared; ///< of SpringLaw::limit()
+	Vec6 applied = Vec6::Zero(); ///< q_a
+
+	/// r of (3), and kappa of SpringLaw::limit().
+	struct NewtonPoint {
+		Vec6 residual;
+		double kappa;
+	};
+
+	double tryStretches(double h, const Vec6& after);
+	Vec6 residual(const ModalStep& step, const Vec6& free, const Vec6& after) const;
+	Mat6 slope(const ModalStep& step, double kappa) const;
+	bool improve(const ModalStep& step, const Vec6& free, Vec6& after, NewtonPoint& point);
+	Vec6 withinAccount(const ModalStep& step, const Vec6& free, const Vec6& impulse) const;
+
+public:
+	std::vector<SpringStep> springs;
+	double account = 0; ///< A [J]
+	double dissipated = 0; ///< by the springs in the step, after finish() [J]
+
+	SpringSteps() = default;
+	/// Springs with the members of SpringStep up to `rates`, and the forces of the last step.
+	SpringSteps(std::unique_ptr<SpringLaw>, std::vector<SpringStep>, double account, double h);
+	bool empty() const { return springs.empty(); }
+	/// Sum of the energies at z0. [J]
+	double startEnergy() const;
+	/// Tangent stiffness at z0 over the initial one, in the mean over springs and directions. [-]
+	double tangent(const JointStiffness& stiffness) const;
+	/// By how much the energy at z1 exceeds that of explicit springs at the half step. after: eta' [J]
+	double explicitDefect(double h, const Vec6& after) const;
+	/// Impulse of the forces of the last step, without q_a.
+	Vec6 warmStart(double h) const;
+	/// Impulse of springs and dashpots without q_a: eta' - E by (3), (4). free: E; after: an estimate of eta'.
+	Vec6 impulse(const ModalStep& step, const Vec6& free, Vec6 after);
+	/// Account and history after the step. impulse: without q_a; after: eta'.
+	void finish(const ModalStep& step, const Vec6& impulse, const Vec6& after);
+};
+
+} // namespace timber

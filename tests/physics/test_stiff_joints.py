@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Joints that a step does not resolve: their strength limits what they transmit, yielding ones create no energy."""
+import pytest
+import yade.wrapper as yw
+import yade_timber as yt
+from yade_timber.run.summary import CREATED, created_energy
+from yade_timber.scene import queries
+from yade_timber.scene.engines import find_engine
+
+O = yw.Omega()
+STRENGTH = 1000.0
+"""[N]"""
+CORNERS = [(0.1, 0.05 * y, 5 + 0.05 * z) for y in (-1, 1) for z in (-1, 1)]
+"""Of the joint of the struck body [m]."""
+
+
+def boxes(count, size, step, density, dt):
+    """A row of free cubes along x from 0 on, without gravity: ids."""
+    O.reset()
+    wood = yt.timber(density=density)
+    ids = [O.bodies.append(yt.box((size,) * 3, (k * step, 0, 5), material=wood)) for k in range(count)]
+    O.dt, O.engines = dt, yt.engines(gravity=(0, 0, 0))
+    return ids
+
+
+@pytest.mark.parametrize("per", ["spring", "joint"])
+@pytest.mark.parametrize("stiffness", [58.8e3, 1e8, 1e9, 1e10])
+@pytest.mark.parametrize("dt", [5e-4, 1e-4, 2e-5, 4e-6])
+def test_a_hammer_loses_what_the_strength_allows(per, stiffness, dt):
+    """A body of 10 kg on a joint is struck at 10 m/s: until it breaks the joint transmits at most its strength."""
+    struck, hammer = boxes(2, 0.2, 0.2001, 1250, dt)
+    wall = O.bodies.append(yt.box((0.1,) * 3, (-0.5, 0, 5), fixed=True))
+    points = [(0, 0, 5)] if per == "spring" else CORNERS
+    joint = yt.connect(wall, struck, points, stiffness=(stiffness,) * 2, strength=STRENGTH, per=per)
+    yt.set_velocity(hammer, (-10, 0, 0))
+    momentum = sum(O.bodies[k].state.mass * O.bodies[k].state.vel[0] for k in (struck, hammer))
+    steps = 0
+    while not joint.isBroken and steps < 50000:
+        O.step()
+        steps += 1
+    taken = sum(O.bodies[k].state.mass * O.bodies[k].state.vel[0] for k in (struck, hammer)) - momentum
+    breaks = find_engine(yw.JointEngine).breaks
+    assert joint.isBroken and len(breaks) == len(points)
+    assert -1e-12 * abs(momentum) <= taken <= STRENGTH * dt * steps * (1 + 1e-9)  # rounding
+    assert sum(one.force for one in breaks) <= STRENGTH * (1 + 1e-9)
+    assert created_energy() <= CREATED * queries.energy()["kinetic"]
+
+
+@pytest.mark.parametrize("count", [2, 10])
+@pytest.mark.parametrize("ratio", [0, 0.03, 1])
+@pytest.mark.parametrize("dt", [5e-4, 1e-4])
+def test_yielding_joints_create_no_energy(count, ratio, dt):
+    """Light cubes with three springs of 1e7 N/m between them that yield at 2 kN."""
+    ids = boxes(count, 0.1, 0.1001, 400, dt)
+    for k, (a, b) in enumerate(zip(ids, ids[1:])):
+        x = 0.1001 * k + 0.05
+        yt.connect(a, b, [(x, 0.04, 5), (x, -0.04, 5.04), (x, -0.04, 4.96)], normal=(1, 0, 0), stiffness=(1e7, 1e7),
+                   strength=2000, damping_ratio=ratio, slip=yt.SlipLaw(0.01, 0.04, 0.3))
+    for k in ids:
+        yt.set_velocity(k, (3 * (-1)**k, float(k == 0), 0.5 * k / count))
+    start = queries.energy()["kinetic"]
+    O.run(100, True)
+    # Debts of the sweeps, whose tolerance is 1e-3 of the impulses
+    assert abs(queries.energy_residual(queries.energy())) < CREATED * start
+    assert created_energy() < CREATED * start
+
+
+def test_a_saved_scene_goes_on_with_the_same_bits(tmp_path):
+    """The half-step stretches, forces and accounts of stiff joints are saved."""
+
+    def state():
+        return [(*b.state.pos, *b.state.vel, *b.state.angVel) for b in O.bodies]
+
+    ids = boxes(3, 0.1, 0.1001, 400, 5e-4)
+    for k, law in ((0, {"slip": yt.SlipLaw(0.01, 0.04, 0.3)}), (1, {"per": "joint"})):
+        yt.connect(ids[k], ids[k + 1], [(0.1001 * k + 0.05, 0.04, 5), (0.1001 * k + 0.05, -0.04, 5)], normal=(1, 0, 0),
+                   stiffness=(1e7, 1e7), strength=3e4, **law)
+    yt.set_velocity(ids[0], (0.1, 0.02, -0.03))
+    O.run(20, True)
+    file = str(tmp_path / "stiff.yade")
+    O.save(file)
+    O.run(20, True)
+    expected = state()
+    O.load(file)
+    O.run(20, True)
+    assert state() == expected
