@@ -169,7 +169,7 @@ def pulled(initial):
     joint = yt.connect(base, block, [(0, 0, 0.5)], normal=(0, 0, 1), stiffness=(1e5, 0), strength=1000.0,
                        slip=yt.SlipLaw(softening_stretch=0.1, ultimate_stretch=0.2, friction_share=1.0))
     joint.dampingTime, joint.initialDamping = 0.01, initial
-    O.bodies[block].state.mass = 1e6  # its speed stays
+    O.bodies[block].state.mass = 1e7  # its speed stays
     powers = []
     for speed, skipped in ((0.1, 500), (0.1, 1000), (-0.1, 200)):  # stretches 0.005, 0.015, 0.013 m; yield at 0.01
         yt.set_velocity(O.bodies[block], (0, 0, speed))
@@ -181,7 +181,7 @@ def pulled(initial):
 
 
 def test_dashpots_follow_the_tangent_stiffness():
-    """tau k v^2 = 10 W while the spring is elastic, none while it flows; with the initial stiffness always. The speed
-    of the block changes by 2e-4."""
+    """tau k v^2 = 10 W while the spring is elastic, none while it flows; with the initial stiffness always. The power
+    falls by 2e-4, as the spring slows the block."""
     assert pulled(initial=False) == pytest.approx([10, 0, 10], rel=1e-3, abs=1e-9)
     assert pulled(initial=True) == pytest.approx([10, 10, 10], rel=1e-3)
