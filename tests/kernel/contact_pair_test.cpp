@@ -16,7 +16,7 @@ const PairProperties pair { 1e6, 0.5, 0.4, 1 }; ///< heavy: contacts do not stop
 const FeatureId vertex(FeatureKind::VertexFace, 3, 1), face(FeatureKind::FaceVertex, 2, 5),
         edge(FeatureKind::EdgeEdge, 4, 7), otherEdge(FeatureKind::EdgeEdge, 4, 8);
 
-ContactPoint pointOf(FeatureId id, double at) { return { id, Vec3::Zero(), Vec3::UnitZ(), at }; }
+ContactPoint pointOf(FeatureId id, double at) { return { id, {}, Vec3::Zero(), Vec3::UnitZ(), at }; }
 
 /// A persistent point with that overlap.
 PointRecord loaded(FeatureId id, double at)

@@ -29,7 +29,7 @@ const Vec3 none = Vec3::Zero();
 }
 [[maybe_unused]] ContactPoint pointOf(int vertex, const Vec3& normal = Vec3::UnitZ(), double overlap = 1e-3)
 {
-	return { { FeatureKind::VertexFace, vertex, 0 }, none, normal, overlap };
+	return { { FeatureKind::VertexFace, vertex, 0 }, {}, none, normal, overlap };
 }
 
 [[maybe_unused]] void solve(HeapPoint point, double h = 1e-4, double tolerance = 0)
