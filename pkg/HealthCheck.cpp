@@ -192,15 +192,17 @@ void HealthCheck::action()
 	if (!areFastNoted) noteFastBodies();
 }
 
-/// A contact begins as deep as its bodies approach each other in a step.
+/// A body that moves by more than half its thickness in a step may pass through another one.
 void HealthCheck::noteFastBodies()
 {
 	for (const shared_ptr<Body>& b : *scene->bodies) {
 		const RoundedPolyhedron* shape = b ? roundedShape(*b) : nullptr;
-		if (!shape || !(b->state->vel.norm() * scene->dt > shape->radius)) continue;
-		std::cerr << "body " << b->getId() << " moves by " << 1000 * b->state->vel.norm() * scene->dt
-		          << " mm in a step, more than its rounding radius of " << 1000 * shape->radius
-		          << " mm, and may enter what it hits as deep: O.dt = " << scene->dt << " s is large for it\n";
+		if (!shape) continue;
+		const Real half = shape->radius + shape->geometry->coreHalfThickness, way = b->state->vel.norm() * scene->dt;
+		if (!(way > half)) continue;
+		std::cerr << "body " << b->getId() << " moves by " << 1000 * way << " mm in a step, more than half its "
+		          << "thickness of " << 2000 * half << " mm, and may pass through what it hits: O.dt = " << scene->dt
+		          << " s is large for it\n";
 		areFastNoted = true;
 		return;
 	}

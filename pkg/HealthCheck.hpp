@@ -59,7 +59,7 @@ public:
 		"is small enough for contacts under gravity and for the joints. "
 		"A free body with an angular velocity but no angular momentum gets the momentum of that velocity. "
 		"Then and at an interval it checks that positions and velocities are finite, speeds and rotations "
-		"plausible, and names the first body that moves by more than its radius in a step.",
+		"plausible, and names the first body that moves by more than half its thickness in a step.",
 		((int, every, 100, Attr::triggerPostLoad, "Steps between checks of the bodies. [-]"))
 		((Real, speedLimit, 200, Attr::triggerPostLoad, "Largest plausible speed of a body. [m/s]"))
 		((Real, turnLimit, 1.5, Attr::triggerPostLoad, "Largest plausible rotation of a free body in a step. "

@@ -17,7 +17,7 @@ std::vector<ContactPoint> pointsAt(const std::vector<Vec3>& positions)
 {
 	std::vector<ContactPoint> points;
 	for (const Vec3& x : positions)
-		points.push_back({ FeatureId(FeatureKind::VertexFace, int(points.size()), 1), x, Vec3::UnitZ(), 1e-4 });
+		points.push_back({ FeatureId(FeatureKind::VertexFace, int(points.size()), 1), {}, x, Vec3::UnitZ(), 1e-4 });
 	return points;
 }
 double areaOf(const std::vector<Vec3>& positions, double radius)
@@ -44,7 +44,7 @@ struct Path {
 		for (int k = 0; k < steps; ++k) {
 			at += way;
 			std::vector<ContactPoint> points;
-			if (at > 0) points.push_back({ id, none, Vec3::UnitZ(), at });
+			if (at > 0) points.push_back({ id, {}, none, Vec3::UnitZ(), at });
 			released += elasticPair(hertz,
 			        { pair, { none, none, none }, { none, { 0, 0, -way / h }, none }, h, form }, points,
 			        records);
@@ -81,7 +81,7 @@ public:
 	{
 		const Vec3 none = Vec3::Zero();
 		std::vector<ContactPoint> points;
-		if (depth > 0) points.push_back({ vertex, none, Vec3::UnitZ(), depth });
+		if (depth > 0) points.push_back({ vertex, {}, none, Vec3::UnitZ(), depth });
 		released += elasticPair(
 		        hertz, { pair, { none, none, none }, { none, bodies[1].velocity, none }, h }, points, records);
 		for (SolverBody& b : bodies)

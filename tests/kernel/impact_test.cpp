@@ -55,7 +55,7 @@ public:
 		const Vec3 none = Vec3::Zero();
 		std::vector<ContactPoint> points;
 		if (depth > 0)
-			points.push_back({ FeatureId(FeatureKind::VertexFace, 3, 1), none, Vec3::UnitZ(), depth });
+			points.push_back({ FeatureId(FeatureKind::VertexFace, 3, 1), {}, none, Vec3::UnitZ(), depth });
 		released += elasticPair(
 		        hertz, { pair, { none, none, none }, { none, bodies[1].velocity, none }, h }, points, records);
 		for (SolverBody& b : bodies)
@@ -137,7 +137,7 @@ double computedRebound(double light, double heavy, double h, double share)
 		for (int i : { 0, 1 }) {
 			if (overlaps[i] > 0)
 				points[i].push_back(
-				        { FeatureId(FeatureKind::VertexFace, i, 1), none, Vec3::UnitZ(), overlaps[i] });
+				        { FeatureId(FeatureKind::VertexFace, i, 1), {}, none, Vec3::UnitZ(), overlaps[i] });
 			const BodyKinematics a { none, bodies[i].velocity, none },
 			        b { none, bodies[i + 1].velocity, none };
 			elasticPair(hertz, { pairs[i], a, b, h, NormalForm::Closed, k == 0 }, points[i], records[i]);

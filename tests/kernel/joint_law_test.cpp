@@ -234,7 +234,7 @@ TEST(PackedJoints, KeepStretchesAndForcesOfEachSpring)
 			for (Vec3* v : { &anchors[i], &stretched[i], &pulling[i] })
 				*v = randomVector(random, 1);
 		const std::vector<int> broken(count, count == 3);
-		packed.add({ 0, 1, false, { 1, 1 }, { 1, false }, Vec3::UnitZ() },
+		packed.add({ 0, 1, false, false, { 1, 1 }, { 1, false }, Vec3::UnitZ() },
 		        { anchors, anchors, broken, stretched, pulling });
 		EXPECT_EQ(packed.joints.back().isActive, count != 0 && count != 3);
 		stretches.push_back(stretched);

@@ -34,7 +34,7 @@ struct MovingPair {
 		for (SolverBody& b : bodies)
 			b.position = randomVector(random, 1);
 		for (size_t k = 0; k < count; ++k) {
-			points.push_back({ { FeatureKind::VertexFace, int(k), 0 }, randomVector(random, 1),
+			points.push_back({ { FeatureKind::VertexFace, int(k), 0 }, {}, randomVector(random, 1),
 			        randomDirection(random), std::pow(10, uniform(random, -9, -2)) });
 			PointRecord s;
 			s.id = points[k].id;

@@ -18,7 +18,7 @@ def loop_of(geometry=(), physics=(), law=()):
 
 @pytest.mark.parametrize("name, build", [
     ("O.engines[0]", lambda: setattr(O, "engines", [None])),
-    ("O.engines[8]", lambda: setattr(O, "engines", [*O.engines, None])),
+    ("O.engines[9]", lambda: setattr(O, "engines", [*O.engines, None])),
     ("ParallelEngine", lambda: yw.ParallelEngine([None])),
     ("ParallelEngine", lambda: yw.ParallelEngine([[yw.ForceResetter(), None]])),
     ("ParallelEngine.slaves[0]", lambda: setattr(yw.ParallelEngine(), "slaves", [None])),
