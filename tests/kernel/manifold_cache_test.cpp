@@ -83,6 +83,7 @@ std::vector<ContactPoint> afterMove(const RoundedPolyhedron& a, const RoundedPol
 }
 
 constexpr double move = (1 - 1e-6) * candidateSkin; ///< just within the margin [m]
+constexpr double touch = 0.002, flush = flushShare * touch; ///< contact distance of bodies of 1 mm radius, flush limit [m]
 
 } // namespace
 
@@ -130,19 +131,18 @@ TEST(CandidateCache, SmallBodyTurningAtALargeCorner)
 
 /// An edge moves towards a position just beyond another edge, along the normal of its own inclined face, along which
 /// the gap is measured.
-/// The face supports its vertices (flushTolerance) even if that gap is slightly larger than the sum of the radii. The
+/// The face supports its vertices (flush limit) even if that gap is slightly larger than the sum of the radii. The
 /// skin subtracted from the margin covers this, and so does the second skin within which candidates are searched.
 TEST(CandidateCache, ObliqueApproachFromAfar)
 {
 	const auto large = roundedBox({ 1, 1, 1 }, 0.001), small = roundedBox({ 0.1, 0.1, 0.1 }, 0.001);
-	const double touch = 0.002;
-	const Quat lean = about(Vec3::UnitY(), 0.049);
+	const Quat lean = about(Vec3::UnitY(), 0.98 * flush / touch);
 	const Vec3 axis = lean * Vec3::UnitZ(), upper(0.499, 0, 0.499), lower(0.049, 0, -0.049);
 	for (const double start : { 0.05, touch + candidateSkin + 1e-6 }) {
 		CandidateCache cache;
 		std::vector<ContactPoint> points;
 		bool supported = false;
-		for (double distance = start; distance > touch - 1e-4; distance -= distance > 2 * touch ? 1e-3 : 2e-7) {
+		for (double distance = start; distance > touch - 1e-4; distance -= distance > 2 * touch ? 1e-3 : 5e-8) {
 			const Pose poseB { upper + distance * axis - lean * lower, lean };
 			updateManifold(large, small, {}, poseB, {}, cache, points);
 			ASSERT_TRUE(identical(points, contacts(large, small, {}, poseB))) << distance;
@@ -156,24 +156,24 @@ TEST(CandidateCache, ObliqueApproachFromAfar)
 	}
 }
 
-/// A corner beyond a border by the motion plus half of flushTolerance: it is supported after the motion.
+/// A corner beyond a border by the motion plus half of the flush limit: it is supported after the motion.
 TEST(CandidateCache, AFaceReachesBeyondItsBorder)
 {
 	const auto large = roundedBox({ 1, 1, 1 }, 0.001), small = roundedBox({ 0.1, 0.1, 0.1 }, 0.001);
-	const Vec3 above(0.499 + 0.049 + flushTolerance / 2, 0, 0.499 + 0.049 + 0.0015);
+	const Vec3 above(0.499 + 0.049 + flush / 2, 0, 0.499 + 0.049 + 0.0015);
 	EXPECT_EQ(count(afterMove(large, small, { above + move * Vec3::UnitX(), Quat::Identity() },
 	                        { above, Quat::Identity() }),
 	                  FeatureKind::FaceVertex),
 	        2);
 }
 
-/// A corner approaches the end of an edge from beyond it: the edge is in contact there (flushTolerance) even if its end
+/// A corner approaches the end of an edge from beyond it: the edge is in contact there (flush limit) even if its end
 /// is slightly farther than the sum of the radii.
 TEST(CandidateCache, AnEdgeReachesBeyondItsEnd)
 {
 	const auto large = roundedBox({ 1, 1, 1 }, 0.001), small = roundedBox({ 0.1, 0.1, 0.1 }, 0.001);
 	const Vec3 outward = Vec3(1, 0, 1).normalized(),
-	           beyond = 0.99 * flushTolerance * Vec3::UnitY() + (0.002 - 1e-8) * outward;
+	           beyond = 0.99 * flush * Vec3::UnitY() + (touch - 1e-8) * outward;
 	const Quat onCorner = Quat::FromTwoVectors(Vec3(1, 1, 1), -outward);
 	const Vec3 centre = Vec3::Constant(0.499) + beyond + 0.049 * std::sqrt(3.) * outward;
 	const auto points = afterMove(
