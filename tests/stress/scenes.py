@@ -19,6 +19,7 @@ from scene_joints import chain, frame, hammer, slip_chain
 from scene_judge import Plan
 from scene_parts import append, container, ground, masses, shaking, start
 from scene_shapes import lump, placed, prism, ring, solid
+from scipy.spatial import ConvexHull
 
 O = yw.Omega()
 
@@ -150,24 +151,44 @@ def tower(random):
 
 
 def post(random):
-    """A post over the seam of two or four slabs, which are fixed, or lie on the ground."""
-    fixed, thick = random.random() < 0.5, 10 ** random.uniform(-1.3, 0.3)
+    """A post over the seam of two or four slabs, which are fixed, or lie on the ground: on their level faces, or a
+    square one on their rounded edges."""
+    fixed, thick, four = random.random() < 0.5, 10 ** random.uniform(-1.3, 0.3), random.random() < 0.5
     if not fixed:
         ground()
     base, yaw = 0.0 if not fixed else -thick, random.choice((0.0, random.uniform(0, 1)))
-    gap = random.choice((0.0, 0.0, 1e-4, 5e-3))
+    gap, edge = random.choice((0.0, 0.0, 1e-4, 5e-3)), 0.1 * min(thick, 1.0)
     turn = np.array([[np.cos(yaw), -np.sin(yaw)], [np.sin(yaw), np.cos(yaw)]])
-    four = random.random() < 0.5
     for x, y in itertools.product((-1, 1), (-1, 1) if four else (0,)):
         extents = (1 - gap, (1 if four else 2) - gap, thick)
         centre = (*(turn @ [x / 2, y / 2]), base + thick / 2)
         append(placed(yt.box, extents, centre, 340 * np.prod(extents), yaw=yaw, fixed=fixed))
-    width, height = random.uniform(0.08, 0.3), random.uniform(0.5, 1.5)
-    at = random.choice((0.0, 0.1 * width)) * random.uniform(-1, 1, 2)
-    corners = prism(random.integers(3, 9), width, height, random.choice((np.pi / 4 + yaw, random.uniform(0, 6))))
-    append(yt.polyhedron(corners + [*at, base + thick + height / 2]))
+    half, height = edge + gap / 2, random.uniform(0.5, 1.5)  # of the groove without a level face
+    drop = 0.0
+    if random.random() < 0.5:
+        breadth = random.uniform(1.6, 2.4) * half + 0.05
+        corners, radius = prism(4, breadth / 2**0.5, height, np.pi / 4 + yaw), 0.1 * min(breadth, height)
+        beyond = max(0.0, half + radius - breadth / 2)  # of its core from the level faces, on each side
+        drop = (edge + radius) * (1 - np.sqrt(1 - (beyond / (edge + radius)) ** 2)) * (2 if four else 1)
+    else:
+        corners = post_on_faces(random, half, height, four, turn)
+    append(yt.polyhedron(corners + [0, 0, base + thick + height / 2]))
     start()
-    return Plan(SHORT, stands=2e-3)
+    return Plan(SHORT, stands=2e-3 + 1.1 * drop)
+
+
+def post_on_faces(random, half, height, four, turn):
+    """Corners of a prism whose centre is within the parts of its foot that stand more than `half` from the seams."""
+    while True:
+        sides, radius, yaw = random.integers(3, 9), random.uniform(0.08, 0.4), random.uniform(0, 6)
+        core = radius - 0.1 * min(2 * radius * np.sin(np.pi / sides), height) / np.cos(np.pi / sides)
+        rim = prism(sides, core, height, yaw)[[*range(sides), 0], :2]
+        at = random.choice((0.0, 0.1 * radius)) * random.uniform(-1, 1, 2)
+        foot = np.vstack([np.linspace(p, q, 50) for p, q in itertools.pairwise(rim)]) + at
+        distances = np.abs(foot @ turn)[:, : 2 if four else 1]
+        on_faces = foot[(distances > half).all(axis=1)] - at
+        if len(on_faces) > 2 and ConvexHull(on_faces).equations[:, 2].max() < -0.15 * radius:
+            return prism(sides, radius, height, yaw) + [*at, 0]
 
 
 def slope(random):
@@ -183,7 +204,7 @@ def slope(random):
     start(gravity=9.81 * np.array([np.sin(angle), 0, -np.cos(angle)]))
     events = [(1.0, lambda: O.bodies.erase(other)),
               (1.5, lambda: append(yt.box((0.3, 0.3, 0.3), (-5, 0, 0.151), material=yt.timber(friction=0.8))))]
-    return Plan(SHORT, events[: random.integers(1, 3)], stands=1e-3)
+    return Plan(SHORT, events[: random.integers(1, 3)], stands=2e-3)  # the added one falls by 1 mm
 
 
 def gate(random):
