@@ -22,13 +22,6 @@ namespace {
 		        && isNonNegative(p.overlap) && isNonNegative(p.room) && p.power >= 1;
 	}
 
-	/// Energy that a point has returned beyond its accounts (5) with a change of the pair's weighted velocities. [J]
-	double excessOf(const PointStep& c, const PairVector& velocity)
-	{
-		const PointStep::Quad work = c.impulse * (c.before + c.velocity + velocity.dots(c.rows)) / 2;
-		return std::max(0., work[0] - c.energy) + std::max(0., work[1] + work[2] - c.shearEnergy);
-	}
-
 } // namespace
 
 void ContactSolver::begin(std::vector<SolverBody>& sceneBodies, double step, int sweepLimit)
@@ -231,24 +224,8 @@ double ContactSolver::largestChange() const
 	return largest;
 }
 
-/// Energy that the other contacts of a pair's free bodies have returned beyond their accounts (5). [J]
-double ContactSolver::excessBeside(const SolverPair& pair) const
-{
-	const auto isShared = [&](int body) {
-		return (body == pair.bodyA || body == pair.bodyB) && (*bodies)[body].inverseMass > 0;
-	};
-	double excess = 0;
-	for (const SolverPair& other : pairs) {
-		if (&other == &pair || !(isShared(other.bodyA) || isShared(other.bodyB))) continue;
-		const PairVector velocity = PairVector::of(weighted[other.bodyA].change, weighted[other.bodyB].change);
-		for (size_t k = 0; k < other.count; ++k)
-			excess += excessOf(other.points[k].step, velocity);
-	}
-	return excess;
-}
-
 /// Velocity of separation w of an impact whose single point leaves its overlap within the step, or has no force any
-/// more, unless other contacts of its bodies would then return too much.
+/// more.
 void ContactSolver::applyRestitution(const SolverPair& pair)
 {
 	PointStep* alone = nullptr;
@@ -267,14 +244,9 @@ void ContactSolver::applyRestitution(const SolverPair& pair)
 	const double more
 	        = std::min({ p + (alone->rebound - un) / a, energyImpulse(*alone, un - a * p), alone->strength }) - p;
 	if (more <= 0) return;
-	const auto change = [&](double impulse) {
-		alone->impulse[0] += impulse;
-		velocity.add(alone->rows[0], impulse);
-		velocity.store(weighted[pair.bodyA].change, weighted[pair.bodyB].change);
-	};
-	const double before = excessBeside(pair);
-	change(more);
-	if (excessBeside(pair) > before + returnTolerance * more * alone->rebound) change(-more);
+	alone->impulse[0] += more;
+	velocity.add(alone->rows[0], more);
+	velocity.store(weighted[pair.bodyA].change, weighted[pair.bodyB].change);
 }
 
 /// Whether points have returned more energy beyond their accounts (5) than a share of the kinetic energy and the
@@ -286,7 +258,8 @@ bool ContactSolver::returnsTooMuch() const
 		const PairVector velocity = PairVector::of(weighted[pair.bodyA].change, weighted[pair.bodyB].change);
 		for (size_t k = 0; k < pair.count; ++k) {
 			const PointStep& c = pair.points[k].step;
-			excess += excessOf(c, velocity);
+			const PointStep::Quad work = c.impulse * (c.before + c.velocity + velocity.dots(c.rows)) / 2;
+			excess += std::max(0., work[0] - c.energy) + std::max(0., work[1] + work[2] - c.shearEnergy);
 			energy += c.energy + c.shearEnergy;
 		}
 	}
@@ -387,7 +360,7 @@ Convergence ContactSolver::sweepToConvergence(double tolerance)
 			changed = activateChanged(threshold) || sweepJoints(threshold);
 		}
 	}
-	result.converged = !changed && (result.sweeps < slowSweeps || !returnsTooMuch());
+	result.converged = !changed && (result.sweeps < checkedSweeps || !returnsTooMuch());
 	if (!result.converged && result.sweeps < maxSweeps)
 		result.converged = sweepAccelerated(threshold, result.sweeps);
 	if (!result.converged) result.change = largestChange();

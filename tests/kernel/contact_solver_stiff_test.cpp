@@ -151,6 +151,7 @@ double excessOf(const Heap& heap)
 /// Accelerated sweeps converge where 500 plain ones do not, and no energy is returned twice.
 TEST(Accelerated, LightMembersBetweenHeavyOnes)
 {
+	constexpr int slowSweeps = 20;
 	int slow = 0, late = 0;
 	double plainExcess = 0, excess = 0, energy = 0;
 	for (unsigned seed = 0; seed < 40; ++seed) {

@@ -43,7 +43,7 @@ PHASES = np.arange(8) / 8 + 0.01
 """Part of a step by which the gap exceeds three steps' way. [-]"""
 
 
-def bounce(extents, orientation, speed, phase, step=STEP):
+def bounce(extents, orientation, speed, phase, step=STEP, ratio=1.0):
     """(restitution, energy after over energy before, least dissipation of a step over it, unconverged steps) of a fall
     without gravity.
     """
@@ -53,7 +53,7 @@ def bounce(extents, orientation, speed, phase, step=STEP):
     lowest = min((body.state.ori * vertex)[2] for vertex in corners(body)) - body.shape.radius
     body.state.pos = (0, 0, -lowest + speed * step * (3 + phase))
     O.bodies.append(body)
-    O.dt, O.engines = step, yt.engines(gravity=(0, 0, 0))
+    O.dt, O.engines = step, yt.engines(gravity=(0, 0, 0), damping_ratio=ratio)
     yt.set_velocity(body, (0, 0, -speed))
     forces = next(engine for engine in O.engines if isinstance(engine, yt.ContactForces))
     before, terms, least = body.state.mass * speed**2 / 2, np.zeros(3), 0.0
@@ -85,6 +85,20 @@ def test_one_point_has_the_exact_restitution():
     restitution = [bounce(*SHAPES["cube on a corner"], speed, phase)[0] for speed in SPEEDS for phase in PHASES]
     assert restitution == pytest.approx([POINT] * len(restitution),
                                         abs=2e-3)  # of the closed form's digits and the rounding of the corner
+
+
+@pytest.mark.parametrize("ratio", [0.1165, 0.3])
+def test_faces_with_light_damping_rebound_to_the_closed_form(ratio):
+    """A cube that falls on its face from 20 heights: the four points have four times the response of one, so that the
+    ratio in the closed form is ratio (4 x 1.2)^1/2. The points share the impulse with the softness.
+    """
+    damping = ratio * np.sqrt(4 * 1.2)
+    exact = np.exp(-2 * damping * np.arccos(damping) / np.sqrt(1 - damping**2))
+    speeds = np.sqrt(2 * 9.81 * np.geomspace(0.02, 1.0, 20))
+    restitution = np.array([bounce((0.3, 0.3, 0.3), None, v, PHASES[k % 8], ratio=ratio)[0] for k, v in enumerate(speeds)])
+    print(f"\nratio {ratio}: exact {exact:.4f}, mean {restitution.mean():.4f}, highest {restitution.max():.4f}")
+    assert restitution.mean() == pytest.approx(exact, abs=SOFTNESS)
+    assert restitution.max() <= exact + SOFTNESS
 
 
 @pytest.mark.parametrize("size", [0.005, 0.02, 0.1])
