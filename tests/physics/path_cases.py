@@ -33,6 +33,7 @@ def pair(dt=1e-4, friction=MU):
     low = yt.box(base, (0, 0, -base[2] / 2), None, heavy)
     high = yt.box(block, (0, 0, block[2] / 2 - OVERLAP), None, heavy)
     scene((low, high), dt, gravity=(0, 0, 0), damping_ratio=0, health_check=0)
+    O.step()  # a pair counts as placed before its bodies have been integrated
     integrate_first()
     O.step()
     return low, high

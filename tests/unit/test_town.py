@@ -116,7 +116,7 @@ def test_resumed(tmp_path, shove, town):
 
 def houses(folder):
     """Rows of houses.csv."""
-    with open(folder / "houses.csv", newline="") as file:
+    with open(folder / "houses.csv", newline="", encoding="utf-8-sig") as file:  # a mark for letters beyond ASCII
         return list(csv.DictReader(file))
 
 
