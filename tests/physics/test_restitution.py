@@ -95,7 +95,8 @@ def test_faces_with_light_damping_rebound_to_the_closed_form(ratio):
     damping = ratio * np.sqrt(4 * 1.2)
     exact = np.exp(-2 * damping * np.arccos(damping) / np.sqrt(1 - damping**2))
     speeds = np.sqrt(2 * 9.81 * np.geomspace(0.02, 1.0, 20))
-    restitution = np.array([bounce((0.3, 0.3, 0.3), None, v, PHASES[k % 8], ratio=ratio)[0] for k, v in enumerate(speeds)])
+    phases = np.resize(PHASES, len(speeds))
+    restitution = np.array([bounce((0.3, 0.3, 0.3), None, *at, ratio=ratio)[0] for at in zip(speeds, phases)])
     print(f"\nratio {ratio}: exact {exact:.4f}, mean {restitution.mean():.4f}, highest {restitution.max():.4f}")
     assert restitution.mean() == pytest.approx(exact, abs=SOFTNESS)
     assert restitution.max() <= exact + SOFTNESS
