@@ -84,7 +84,9 @@ namespace {
 			return boundsOverlap(b1, b2);
 		}
 		phys.power = Law::power;
-		phys.strength = timber::bearingStrength(phys.bearing, phys.bearingRadius, geom.contactPoints);
+		phys.strength = form == timber::NormalForm::Increment
+		        ? timber::BearingStrength() // as in the paper
+		        : timber::bearingStrength(phys.bearing, phys.bearingRadius, geom.contactPoints);
 		const timber::PairProperties pair = phys.properties();
 		const bool placed = phys.records.empty() && (wasPlaced(*scene, b1) || wasPlaced(*scene, b2));
 		phys.releasedEnergy = timber::elasticPair(law,

@@ -24,8 +24,9 @@ def load(bodies):
     O.reset()
     O.bodies.append(bodies)
     chain = yt.engines(gravity=(0, 0, 0), damping_ratio=0, sweeps=0, health_check=0)
+    O.dt, O.engines = DT, chain
+    O.step()  # a pair counts as placed before its bodies have been integrated
     O.engines = [chain[-1]] + chain[:-1]
-    O.dt = DT
 
 
 def move(displacement, angle=(0, 0, 0)):

@@ -91,17 +91,22 @@ class Impact:
 @pytest.mark.parametrize("kind", ["corner", "face"])
 @pytest.mark.parametrize("ratio", [0.0, 1.0])
 def test_restitution_converges(kind, ratio):
-    """Crushed at 30 m/s. 0.01: the order of the step, explicit or implicit. The increment form, whose error is of the
-    first order, has a tenth of the step. Energies of explicit springs close to the order of the step, others to
-    rounding.
+    """Crushed at 30 m/s. 0.01: the order of the step. Energies of explicit springs close to the order of the step,
+    others to rounding.
     """
     impact = Impact(kind)
     exact = impact.exact(30.0, ratio)
     assert exact < 0.7  # crushed
-    for options, step, rest in (({}, 1e-5, 1e-9), ({"sweeps": 0}, 1e-6, 1e-4), ({"increment": True}, 1e-6, 1e-9)):
+    for options, step, rest in (({}, 1e-5, 1e-9), ({"sweeps": 0}, 1e-6, 1e-4)):
         found, share, crushing, residual = impact.run(30.0, ratio, step, **options)
         assert found == pytest.approx(exact, abs=0.01), options
         assert share <= 1 + 1e-9 and crushing > 0 and residual < rest, options
+
+
+def test_increment_form_is_elastic():
+    """As the paper's: its force may exceed the strength."""
+    _, share, crushing, _ = Impact("corner").run(30.0, 1.0, 1e-5, increment=True)
+    assert share > 1 and crushing == 0
 
 
 def test_corners_are_exact_at_any_step():
@@ -177,4 +182,5 @@ def test_weight_on_a_sliding_block():
     supplied = -energy["gravity"] + energy["imposed_velocity"]
     assert energy["crushing"] > 0
     assert forces.created <= 1e-5 * supplied and abs(yt.energy_residual()) <= 1e-5 * supplied
-    assert O.bodies[light].state.pos[2] > 0.03  # in its dent
+    # A static dent is 11 mm deep, a suddenly loaded one twice as much, and the block slides out: observed 27 mm
+    assert 0.05 - O.bodies[light].state.pos[2] < 0.03

@@ -172,7 +172,8 @@ def test_run_called_within_a_step(column):
 def test_joined_in_the_background():
     pile()
     for k in range(400):
-        yt.connect(0, k % 40 + 1, [tuple(O.bodies[k % 40 + 1].state.pos)])
+        x, y, z = O.bodies[k % 40 + 1].state.pos
+        yt.connect(0, k % 40 + 1, [(x, y, z + 1e-3 * (k // 40))])
     assert O.running and len(find_engine(yw.JointEngine).joints) == 400
     O.pause()
     O.wait()
