@@ -198,11 +198,12 @@ void HealthCheck::noteFastBodies()
 	for (const shared_ptr<Body>& b : *scene->bodies) {
 		const RoundedPolyhedron* shape = b ? roundedShape(*b) : nullptr;
 		if (!shape) continue;
-		const Real half = shape->radius + shape->geometry->coreHalfThickness, way = b->state->vel.norm() * scene->dt;
+		const Real half = shape->radius + shape->geometry->coreHalfThickness,
+		           way = b->state->vel.norm() * scene->dt;
 		if (!(way > half)) continue;
 		std::cerr << "body " << b->getId() << " moves by " << 1000 * way << " mm in a step, more than half its "
-		          << "thickness of " << 2000 * half << " mm, and may pass through what it hits: O.dt = " << scene->dt
-		          << " s is large for it\n";
+		          << "thickness of " << 2000 * half
+		          << " mm, and may pass through what it hits: O.dt = " << scene->dt << " s is large for it\n";
 		areFastNoted = true;
 		return;
 	}

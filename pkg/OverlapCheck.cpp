@@ -33,8 +33,7 @@ namespace {
 		pair.radius = math::min(a.radius, b.radius);
 		// The force of a contact is constant beyond the contact of the cores
 		pair.total = math::min(a.radius + b.radius,
-		        timber::bodyOverlap(
-		                a, b, { b1.state->pos, b1.state->ori }, { b2.state->pos, b2.state->ori }));
+		        timber::bodyOverlap(a, b, { b1.state->pos, b1.state->ori }, { b2.state->pos, b2.state->ori }));
 		if (const auto phys = dynamic_cast<const ManifoldPhys*>(I.phys.get()))
 			for (const timber::PointRecord& r : phys->records)
 				pair.carried = math::max(pair.carried, Real(r.overlap));

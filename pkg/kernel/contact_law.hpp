@@ -171,9 +171,8 @@ void crush(const Law& law, const PairProperties& pair, NormalForm form, PointSpr
 	s.crushed += plastic;
 	total -= plastic;
 	s.stiffness = law.stiffness(s.overlap);
-	s.normalForce = form == NormalForm::Closed
-	        ? law.force(s.overlap)
-	        : select(yields, pair.strength.force(s.crushed), s.normalForce);
+	s.normalForce = form == NormalForm::Closed ? law.force(s.overlap)
+	                                           : select(yields, pair.strength.force(s.crushed), s.normalForce);
 }
 
 /// Elastic forces of one point for its new normal, overlap and displacement (Eqs. 15, 16, 19, 20).

@@ -33,8 +33,10 @@ public:
 		list.push_back(id);
 		const FeatureKind kind = id.kind();
 		const bool ofBoth = kind == FeatureKind::VertexVertex;
-		if (ofBoth || kind == FeatureKind::VertexFace || kind == FeatureKind::VertexEdge) inA.set(size_t(id.a()));
-		if (ofBoth || kind == FeatureKind::FaceVertex || kind == FeatureKind::EdgeVertex) inB.set(size_t(id.b()));
+		if (ofBoth || kind == FeatureKind::VertexFace || kind == FeatureKind::VertexEdge)
+			inA.set(size_t(id.a()));
+		if (ofBoth || kind == FeatureKind::FaceVertex || kind == FeatureKind::EdgeVertex)
+			inB.set(size_t(id.b()));
 	}
 	bool ofA(int vertex) const { return inA[size_t(vertex)]; }
 	bool ofB(int vertex) const { return inB[size_t(vertex)]; }
@@ -127,8 +129,8 @@ inline bool isAboveFaceOf(const ShapePair& pair, const Polyhedron& body, const E
 
 /// Whether the contact of a vertex takes the place of the crossing of two edges. along: of the crossing; zone: from
 /// the ends [m]. Without vertex-edge contacts it is that with a face, which at an overlap of zero rounding decides.
-inline bool isReplacedByVertex(const ShapePair& pair, FeatureId id, double alongA, double alongB, double zone,
-        const VertexContacts& vertices)
+inline bool isReplacedByVertex(
+        const ShapePair& pair, FeatureId id, double alongA, double alongB, double zone, const VertexContacts& vertices)
 {
 	const Polyhedron &coreA = pair.a.core, &coreB = pair.b.core;
 	const Edge &a = coreA.edges[id.a()], &b = coreB.edges[id.b()];
@@ -157,12 +159,10 @@ auto edgeEdgeContact(const ShapePair& pair, const FeatureId* first, size_t count
 	const auto edgeA = [&](size_t i) { return &coreA.edges[first[i].a()]; };
 	const auto edgeB = [&](size_t i) { return &coreB.edges[first[i].b()]; };
 	const Group<Number, const Edge> a(count, edgeA), b(count, edgeB);
-	const Vec tailA = Group<Number, const Vec3>(count, [&](size_t i) {
-		return &coreA.vertices[edgeA(i)->tail];
-	}).vectors();
-	const Vec tailB = pair.toA<Number>(Group<Number, const Vec3>(count, [&](size_t i) {
-		return &coreB.vertices[edgeB(i)->tail];
-	}).vectors());
+	const Vec tailA
+	        = Group<Number, const Vec3>(count, [&](size_t i) { return &coreA.vertices[edgeA(i)->tail]; }).vectors();
+	const Vec tailB = pair.toA<Number>(
+	        Group<Number, const Vec3>(count, [&](size_t i) { return &coreB.vertices[edgeB(i)->tail]; }).vectors());
 	const Vec directionA = a.get(&Edge::direction),
 	          directionB = broadcast<Number>(pair.rotation) * b.get(&Edge::direction);
 	const Crossing<Number> c = crossing<Number>(tailA, directionA, tailB, directionB);
@@ -188,7 +188,8 @@ auto edgeEdgeContact(const ShapePair& pair, const FeatureId* first, size_t count
 	const auto isCentral = isInside(zone);
 	for (size_t i = 0; i < count; ++i)
 		if (lane(valid, i) && !lane(isCentral, i)
-		        && isReplacedByVertex(pair, first[i], lane(c.alongA, i), lane(c.alongB, i), lane(zone, i), vertices))
+		        && isReplacedByVertex(
+		                pair, first[i], lane(c.alongA, i), lane(c.alongB, i), lane(zone, i), vertices))
 			clearLane(valid, i);
 	return valid;
 }

@@ -150,11 +150,10 @@ void prepareModes(ModalConstraint& c, const SolverBody& a, const SolverBody& b, 
 	assert(modes.state.springs > 0 && isRotation(axesA));
 	place(c, a, b, modes, axesA);
 	const Eigen::Array<double, 6, 1> phase = h * modes.frequencies.array(),
-	                                   x = h / 2 * modes.frequencies.array().unaryExpr([&](double omega) {
-		                                   return damping.of(omega);
-	                                   });
+	                                 x
+	        = h / 2 * modes.frequencies.array().unaryExpr([&](double omega) { return damping.of(omega); });
 	const double stiffest = std::max(stiffPhase, phase[5]), square = stiffest * stiffest; // frequencies increase
-	c.thresholdShare = 1 / (square * square);
+	c.thresholdShare = stiffest > stiffPhase ? stiffToleranceShare / (square * square) : 1;
 	c.decay = x;
 	c.share = x / (1 + x);
 	c.bias = -x / (1 + x) * c.before.array();

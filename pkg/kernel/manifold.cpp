@@ -121,7 +121,8 @@ namespace {
 		if (kind == FeatureKind::EdgeEdge) add(edgeEdgeContact(pair, first, count, points.vertices, contact));
 		else if (kind == FeatureKind::VertexFace || kind == FeatureKind::FaceVertex)
 			add(vertexFaceContact(pair, first, count, contact));
-		else if constexpr (std::is_same_v<Number, double>) add(extraPatternContact(pair, *first, points.vertices, contact));
+		else if constexpr (std::is_same_v<Number, double>)
+			add(extraPatternContact(pair, *first, points.vertices, contact));
 	}
 
 	/// Centre of the common part of the projections of both cores onto a direction, from the origin of A. [m]
@@ -220,8 +221,8 @@ namespace {
 			        candidates.data(), candidates.data() + candidates.size(), FeatureId(kind, 0, 0));
 		};
 		const FeatureId *const first = candidates.data(), *const end = first + candidates.size(),
-		                *const edges = firstOf(FeatureKind::EdgeEdge),
-		                *const extras = firstOf(FeatureKind::VertexEdge);
+		                       *const edges = firstOf(FeatureKind::EdgeEdge),
+		                       *const extras = firstOf(FeatureKind::VertexEdge);
 		testCandidates(pair, first, edges, collector);
 		const auto onFaces = std::ptrdiff_t(points.size());
 		testCandidates(pair, extras, end, collector);
@@ -239,10 +240,9 @@ namespace {
 			return pair.gap < pair.flushLimit()
 			        && coreDistance(pair.a.core, pair.b.core, pair.rotation, pair.translation)
 			        < pair.flushLimit();
-		return pair.isDeep()
-		        && std::none_of(points.begin(), points.end(), [&](const ContactPoint& p) {
-			           return p.overlap >= pair.contactDistance() - pair.gap - pair.flushLimit();
-		           });
+		return pair.isDeep() && std::none_of(points.begin(), points.end(), [&](const ContactPoint& p) {
+			return p.overlap >= pair.contactDistance() - pair.gap - pair.flushLimit();
+		});
 	}
 
 } // namespace

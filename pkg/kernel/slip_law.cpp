@@ -17,7 +17,9 @@ namespace {
 		             limits = after.largest - slack - before.largest + law.slackAt(before.largest).slack;
 		const double onBackbone = grown > 0 ? std::max(0., limits / grown) : 0;
 		const double friction = after.plastic == before.plastic ? 1 : onBackbone,
-		             slip = r <= slack ? 0 : grown > 0 ? onBackbone : 1;
+		             slip = r <= slack ? 0
+		        : grown > 0            ? onBackbone
+		                               : 1;
 		return law.frictionShare * friction + (1 - law.frictionShare) * slip;
 	}
 }

@@ -42,7 +42,8 @@ namespace {
 			case Feature::Vertex: return work(index);
 			case Feature::Edge: return work(body.edges[index].tail) || work(body.edges[index].head);
 			case Feature::Face:
-				return std::any_of(body.faces[index].corners.begin(), body.faces[index].corners.end(), work);
+				return std::any_of(
+				        body.faces[index].corners.begin(), body.faces[index].corners.end(), work);
 			default: return false;
 		}
 	}
@@ -62,8 +63,8 @@ namespace {
 
 	bool contains(const Points& points, FeatureId id)
 	{
-		const auto at = std::lower_bound(points.begin(), points.end(), id,
-		        [](const ContactPoint& p, FeatureId i) { return p.id < i; });
+		const auto at = std::lower_bound(
+		        points.begin(), points.end(), id, [](const ContactPoint& p, FeatureId i) { return p.id < i; });
 		return at != points.end() && at->id == id;
 	}
 
@@ -86,8 +87,9 @@ void linkPredecessors(const Polyhedron& a, const Polyhedron& b, const Points& be
 		FeatureId closest;
 		for (const ContactPoint& old : before) {
 			const double distance = (old.position - next.position).squaredNorm();
-			if (distance >= least || old.normal.dot(next.normal) < successionCosine || contains(points, old.id)
-			        || isTaken(points, old.id) || !doTouch(a, b, old.id, next.id))
+			if (distance >= least || old.normal.dot(next.normal) < successionCosine
+			        || contains(points, old.id) || isTaken(points, old.id)
+			        || !doTouch(a, b, old.id, next.id))
 				continue;
 			least = distance;
 			closest = old.id;

@@ -5,7 +5,6 @@ write_pages.py [docs]. Needs no YADE.
 """
 import csv
 import math
-import statistics
 import sys
 from pathlib import Path
 
@@ -33,21 +32,17 @@ SECTIONS = {"1": ("Contact", "Hertz's impact, Runge-Kutta solutions of the dampe
             "8": ("Invariance", "rotated, mirrored, moved, reordered, saved and loaded scenes; 1 and 2 threads"),
             "9": ("Independent reference", "a portal computed by a second program")}
 ERRORS = {
-    "duration of an impact of 200 steps": ("Hertz impact, plate, worst of 0.01-10 m/s: duration [s]", None),
     "restitution of a damped corner, one step per impact": ("restitution, damping ratio 1, contact of 1 steps [-]",
                                                             None),
     "distance of a sliding block": ("sliding distance from 1 m/s [m]", "0.0004"),
     "period of a rocking block": ("quarter period from 0.6 alpha, rolling rigid block [s]", None),
-    "stiffness of a braced frame": ("braced frame: lateral stiffness [N/m]", None),
     "energy dissipated by a yielding joint in a cycle": (
         "yielding joint, per joint, steady cycle of 6 mm: energy dissipated [J]", None
     ),
     "portal beside a second program": ("portal: implicit dashpots, largest distance / peak [-]", "0.0001"),
     "energy balance of house B in strong shaking": ("house B, strong shaking: residual / input [-]", "0.00025"),
-    "energy balance of a frame that collapses": ("frame that breaks and collapses: residual / input [-]", "0.00025"),
     "flips of a free body, this package": ("SymplecticIntegrator: time of the third flip [s]", "0.001"),
     "flips of a free body, YADE's NewtonIntegrator": ("NewtonIntegrator: time of the third flip [s]", "0.001"),
-    "numbers that differ between 1 and 2 threads": ("1 and 2 threads: numbers that differ [-]", None),
 }
 """{row of the page: (quantity, time step) of accuracy.csv}"""
 CURVES = {"impact, closed form": "Hertz impact, closed form (Eq. 37): duration [s]",
@@ -151,50 +146,8 @@ def balance_text(folder):
     )
 
 
-def chosen_text(folder):
-    column = "CPU time of fixed steps over it at equal error [-]"
-    gains = [float(row[column]) for row in table(folder, "chosen_gain")
-             if row["steps"] == "chosen" and "house" in row["case"]]
-    return (
-        f"steps chosen by the error are {statistics.median(g for g in gains if math.isfinite(g)):.2f} times as fast as"
-        " fixed ones at equal error"
-    )
-
-
-def changed_text(folder):
-    return (
-        "steps that change at random gain up to"
-        f" {100 * max(float(row['energy gained [-]']) for row in table(folder, 'changed_step')):.2g} % of the input"
-    )
-
-
-def town_text(folder):
-    rows = table(folder, "town")
-    most = max(int(row["houses"]) for row in rows)
-    wall, element, memory = (next(name for name in rows[0] if name.startswith(begin))
-                             for begin in ("wall time", "time per element", "memory per element"))
-    one, many = (number(rows, wall, houses=n, threads=1) / number(rows, wall, houses=n, threads=2) for n in (1, most))
-    ratio = number(rows, element, houses=most, threads=1) / number(rows, element, houses=1, threads=1)
-    return (
-        f"a second thread: {one:.2f} times as fast with one house, {many:.2f} times with {most}; time per element with"
-        f" {most} houses over one: {ratio:.2f}; memory per element"
-        f" {number(rows, memory, houses=most, threads=1):.0f} kB"
-    )
-
-
-def pair_text(folder):
-    time = {row["program"]: float(row["time per pair and step [us]"]) for row in table(folder, "peers")
-            if row["pair"] == "face on face"}
-    return (
-        f"two faces, points and law: this package {time['this package in YADE']:.2g} us, YADE's Polyhedra"
-        f" {time['YADE Polyhedra']:.2g} us; points alone: this package {time['timber points']:.2g} us, Bullet"
-        f" {time['Bullet']:.2g} us, ODE {time['ODE']:.2g} us"
-    )
-
-
-TEXTS = {"step": step_text, "skips": skips_text, "peers": pair_text, "precision": precision_text,
-         "stable_dt": stability_text, "balance": balance_text, "chosen_gain": chosen_text, "changed_step": changed_text,
-         "town": town_text}
+TEXTS = {"step": step_text, "skips": skips_text, "precision": precision_text, "stable_dt": stability_text,
+         "balance": balance_text}
 """{CSV file: function that words its numbers}"""
 
 
@@ -208,28 +161,6 @@ def run_table(folder):
         for row in rows
     ]
     return markdown_table(heads, shown)
-
-
-def draw_profile(axis, rows):
-    """Shares of a step's instructions in both states."""
-    for k, row in enumerate(rows[:-1]):
-        for y, state in enumerate((REST, SHAKING)):
-            left = sum(float(other[f"{state}, share"]) for other in rows[:k])
-            axis.barh(y, float(row[f"{state}, share"]), left=left, height=0.6, color=plt.cm.tab20(k),
-                      label=row["part"] if y == 0 else None)
-    axis.set(yticks=(0, 1), yticklabels=(REST, SHAKING), xlabel="share of the instructions of a step",
-             title="Where the time goes")
-    axis.legend(fontsize=6.5, ncols=2, loc="upper center", bbox_to_anchor=(0.4, -0.2), frameon=False)
-
-
-def draw_pairs(axis, rows):
-    """Time per contact of two faces of each program."""
-    names = {"this package in YADE": "this package,\nlaw and solver", "YADE Polyhedra": "YADE's Polyhedra,\nlaw",
-             "timber points": "this package,\npoints", "Bullet": "Bullet,\npoints", "ODE": "ODE,\npoints"}
-    time = {row["program"]: float(row["time per pair and step [us]"]) for row in rows if row["pair"] == "face on face"}
-    axis.bar(names.values(), [time[name] for name in names], color=["tab:blue", "0.6", "tab:blue", "0.6", "0.6"])
-    axis.set(yscale="log", ylabel="time [us]", title="Contact of two faces")
-    axis.tick_params(axis="x", labelsize=7)
 
 
 def draw_errors(axis, rows, case):
@@ -252,10 +183,6 @@ def draw_errors(axis, rows, case):
 
 
 def write_performance(folder):
-    figure, axes = plt.subplots(1, 2, figsize=(11, 3.4), layout="constrained")
-    draw_profile(axes[0], table(folder, "profile"))
-    draw_pairs(axes[1], table(folder, "peers"))
-    save(figure, folder / "time.png")
     figure, axes = plt.subplots(1, 2, figsize=(11, 3.6), layout="constrained")
     for axis, case in zip(axes, ("standing house C", "collapsing house A")):
         draw_errors(axis, table(folder, "precision"), case)

@@ -17,7 +17,8 @@ std::vector<ContactPoint> pointsAt(const std::vector<Vec3>& positions)
 {
 	std::vector<ContactPoint> points;
 	for (const Vec3& x : positions)
-		points.push_back({ FeatureId(FeatureKind::VertexFace, int(points.size()), 1), {}, x, Vec3::UnitZ(), 1e-4 });
+		points.push_back(
+		        { FeatureId(FeatureKind::VertexFace, int(points.size()), 1), {}, x, Vec3::UnitZ(), 1e-4 });
 	return points;
 }
 double areaOf(const std::vector<Vec3>& positions, double radius)

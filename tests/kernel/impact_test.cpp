@@ -136,8 +136,8 @@ double computedRebound(double light, double heavy, double h, double share)
 		solver.begin(bodies, h, 100);
 		for (int i : { 0, 1 }) {
 			if (overlaps[i] > 0)
-				points[i].push_back(
-				        { FeatureId(FeatureKind::VertexFace, i, 1), {}, none, Vec3::UnitZ(), overlaps[i] });
+				points[i].push_back({ FeatureId(FeatureKind::VertexFace, i, 1), {}, none, Vec3::UnitZ(),
+				        overlaps[i] });
 			const BodyKinematics a { none, bodies[i].velocity, none },
 			        b { none, bodies[i + 1].velocity, none };
 			elasticPair(hertz, { pairs[i], a, b, h, NormalForm::Closed, k == 0 }, points[i], records[i]);

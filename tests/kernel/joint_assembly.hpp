@@ -95,8 +95,7 @@ struct Assembly {
 	}
 	Matrix damping() const
 	{
-		return ofModes(
-		        [](const Joint& joint, double square) { return joint.damping.of(std::sqrt(square)); });
+		return ofModes([](const Joint& joint, double square) { return joint.damping.of(std::sqrt(square)); });
 	}
 	/// Mass of the implicit springs of stiff joints: h2 K / 4.
 	Matrix stiffMass(double h) const
@@ -244,7 +243,8 @@ inline std::vector<Vec3> square(const Vec3& centre, double x, double y)
 inline Assembly oscillator(double ratio)
 {
 	Assembly assembly { { body(0, Vec3::Zero()), member(8, { 0.5, 0.7, 0.02 }, Vec3::Zero()) }, {} };
-	assembly.joints.push_back({ 0, 1, square(Vec3::Zero(), 0.06, 0.05), { 60000, 40000 }, Vec3::UnitZ(), { ratio } });
+	assembly.joints.push_back(
+	        { 0, 1, square(Vec3::Zero(), 0.06, 0.05), { 60000, 40000 }, Vec3::UnitZ(), { ratio } });
 	return assembly;
 }
 
@@ -254,7 +254,8 @@ inline Assembly chain(double ratio)
 	Assembly assembly { { body(0, Vec3::Zero()), member(10, { 6, 6, 0.02 }, { 0, 0, 1.4 }),
 		                    member(30, { 0.1, 40, 40 }, { 1, 0.1, 2.9 }) },
 		{} };
-	assembly.joints.push_back({ 0, 1, square({ 0, 0, 0 }, 0.05, 0.05), { 58800, 58800 }, Vec3::UnitZ(), { ratio } });
+	assembly.joints.push_back(
+	        { 0, 1, square({ 0, 0, 0 }, 0.05, 0.05), { 58800, 58800 }, Vec3::UnitZ(), { ratio } });
 	assembly.joints.push_back(
 	        { 1, 2, square({ 0, 0, 2.8 }, 0.05, 0.06), { 58800, 30000 }, Vec3(0.6, 0, 0.8), { ratio } });
 	return assembly;

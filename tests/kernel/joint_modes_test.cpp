@@ -59,8 +59,8 @@ TEST(Oscillator, HasDashpotsOfTheTangentStiffness)
 	const double omega = std::sqrt(4 * 60000 / 8.), h = 2 * pi / omega / 400;
 	for (const JointDamping& damping : { JointDamping { 0, 4e-4 }, JointDamping { 0, 4e-4, 0.25 },
 	             JointDamping { 0.05, 4e-4, 0.25 }, JointDamping { 0.05, 4e-4, 0 } }) {
-		const double zeta = damping.ratio * std::sqrt(damping.tangent)
-		        + damping.time * damping.tangent * omega / 2;
+		const double zeta
+		        = damping.ratio * std::sqrt(damping.tangent) + damping.time * damping.tangent * omega / 2;
 		Assembly one = oscillator(0);
 		one.joints[0].damping = damping;
 		Vector x0 = Vector::Zero(12), v0 = Vector::Zero(12);
@@ -83,8 +83,8 @@ TEST(Chain, TakesThePowerOfItsDashpots)
 	assembly.setVelocities(v);
 	double power = 0;
 	for (const Joint& j : assembly.joints)
-		power += dashpotPower(assembly.bodies[j.a], assembly.bodies[j.b], assembly.modesOf(j), Mat3::Identity(),
-		        j.damping);
+		power += dashpotPower(
+		        assembly.bodies[j.a], assembly.bodies[j.b], assembly.modesOf(j), Mat3::Identity(), j.damping);
 	EXPECT_NEAR(power, v.dot(assembly.damping() * v), 1e-10 * power); // rounding
 }
 

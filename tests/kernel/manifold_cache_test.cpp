@@ -83,7 +83,8 @@ std::vector<ContactPoint> afterMove(const RoundedPolyhedron& a, const RoundedPol
 }
 
 constexpr double move = (1 - 1e-6) * candidateSkin; ///< just within the margin [m]
-constexpr double touch = 0.002, flush = flushShare * touch; ///< contact distance of bodies of 1 mm radius, flush limit [m]
+constexpr double touch = 0.002,
+                 flush = flushShare * touch; ///< contact distance of bodies of 1 mm radius, flush limit [m]
 
 } // namespace
 
@@ -167,18 +168,18 @@ TEST(CandidateCache, AFaceReachesBeyondItsBorder)
 	        2);
 }
 
-/// A corner approaches the end of an edge from beyond it: the edge is in contact there (flush limit) even if its end
-/// is slightly farther than the sum of the radii.
-TEST(CandidateCache, AnEdgeReachesBeyondItsEnd)
+/// A corner approaches the end of an edge from beyond it: in contact is the vertex there.
+TEST(CandidateCache, ACornerReachesTheEndOfAnEdge)
 {
 	const auto large = roundedBox({ 1, 1, 1 }, 0.001), small = roundedBox({ 0.1, 0.1, 0.1 }, 0.001);
-	const Vec3 outward = Vec3(1, 0, 1).normalized(),
-	           beyond = 0.99 * flush * Vec3::UnitY() + (touch - 1e-8) * outward;
+	const Vec3 outward = Vec3(1, 0, 1).normalized(), along = Vec3::UnitY(),
+	           beyond = (touch - 1e-8) * (outward + 0.98 * flush / touch * along).normalized();
 	const Quat onCorner = Quat::FromTwoVectors(Vec3(1, 1, 1), -outward);
 	const Vec3 centre = Vec3::Constant(0.499) + beyond + 0.049 * std::sqrt(3.) * outward;
 	const auto points = afterMove(
 	        large, small, { centre + move * beyond.normalized(), onCorner }, { centre, onCorner }, { true, true });
-	EXPECT_EQ(count(points, FeatureKind::EdgeVertex), 1);
+	EXPECT_EQ(count(points, FeatureKind::VertexVertex), 1);
+	EXPECT_EQ(points.size(), 1u);
 }
 
 /// Parallel edges have no crossing until the upper box rotates.

@@ -54,8 +54,7 @@ void expectComplete(const RoundedPolyhedron& a, const RoundedPolyhedron& b, cons
 	const auto points = contacts(a, b, {}, poseB, patterns);
 	if (distance <= 1e-9) { // the cores overlap: the depth is that of the axis of least overlap
 		Vec3 axis;
-		const double gap
-		        = coreGap(a.core, b.core, poseB.orientation.toRotationMatrix(), poseB.position, axis);
+		const double gap = coreGap(a.core, b.core, poseB.orientation.toRotationMatrix(), poseB.position, axis);
 		tally.deep += gap < 0;
 		EXPECT_GE(deepest(points), touch - std::min(gap, 0.) - 2 * flushTolerance);
 		return;
@@ -82,7 +81,8 @@ std::vector<RoundedPolyhedron> bodiesOf(Random& random, double size)
 {
 	std::vector<RoundedPolyhedron> bodies { roundedBox(Vec3(1, 1, 1) * size), roundedBox(Vec3(1, 0.5, 0.2) * size),
 		roundedBox(Vec3(1, 0.1, 0.1) * size), rounded(hexagonalPrismVertices(0.3 * size, size), 0.03 * size),
-		rounded(octahedronVertices(0.7 * size), 0.04 * size), rounded(tetrahedronVertices(0.8 * size), 0.04 * size),
+		rounded(octahedronVertices(0.7 * size), 0.04 * size),
+		rounded(tetrahedronVertices(0.8 * size), 0.04 * size),
 		rounded(prismVertices({ { -0.4, 0 }, { 0.4, 0 }, { 0, 0.5 } }, 1), 0.02) };
 	if (size != 1) bodies.pop_back();
 	for (const int corners : { 5, 8, 12, 20, 40 })
@@ -157,11 +157,12 @@ TEST(CompleteManifold, AlignedPairsAndSmallPerturbations)
 {
 	Random random(2);
 	Tally tally;
-	const std::vector<Quat> turns { Quat::Identity(), about(Vec3::UnitX(), M_PI / 4), about(Vec3::UnitZ(), M_PI / 2),
-		about(Vec3::UnitZ(), M_PI / 3), Quat::FromTwoVectors(Vec3(1, 1, 1), Vec3::UnitZ()),
+	const std::vector<Quat> turns { Quat::Identity(), about(Vec3::UnitX(), M_PI / 4),
+		about(Vec3::UnitZ(), M_PI / 2), about(Vec3::UnitZ(), M_PI / 3),
+		Quat::FromTwoVectors(Vec3(1, 1, 1), Vec3::UnitZ()),
 		about(Vec3::UnitY(), M_PI / 4) * about(Vec3::UnitX(), M_PI / 2) };
-	const std::vector<double> small { 0, 1e-12, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 9.9e-5, 1e-4, 1.01e-4, 2e-4, 1e-3, 4.9e-3, 5e-3,
-		5.1e-3, 1e-2, 4.9e-2, 5.1e-2 };
+	const std::vector<double> small { 0, 1e-12, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 9.9e-5, 1e-4, 1.01e-4, 2e-4, 1e-3,
+		4.9e-3, 5e-3, 5.1e-3, 1e-2, 4.9e-2, 5.1e-2 };
 	for (const double size : { 0.01, 1., 30. }) {
 		const auto bodies = bodiesOf(random, size);
 		for (int trial = 0; trial < trials && !HasFailure(); ++trial) {
@@ -176,7 +177,8 @@ TEST(CompleteManifold, AlignedPairsAndSmallPerturbations)
 			direction.normalize();
 			const auto side = Vec3(lattice(), lattice(), 0);
 			pose.position = random() % 2 ? side : Vec3(Vec3::Zero());
-			pose.orientation = about(random() % 2 ? Vec3(Vec3::UnitZ()) : randomDirection(random), pick(small))
+			pose.orientation
+			        = about(random() % 2 ? Vec3(Vec3::UnitZ()) : randomDirection(random), pick(small))
 			        * pose.orientation;
 			const double share = random() % 3 == 0 ? 1 - 1e-4 : uniform(random, 0.02, 1.05);
 			pose = approached(a, b, pose, direction, share);

@@ -13,7 +13,8 @@ WEIGHT = 9.81 * 340  # of 1 m3 [N]
 
 
 def settled(lower, upper, size, seconds=0.5, **options):
-    """Largest velocity of centre or surface [m/s] in the last tenth of the time, upper body, vertical force of all contacts [N]."""
+    """Largest velocity of centre or surface in the last tenth of the time [m/s], upper body, vertical force of all
+    contacts [N]."""
     O.reset()
     O.dt = 5e-4
     O.bodies.append(lower)
@@ -55,7 +56,7 @@ def test_turned_cubes(turn):
 
 @pytest.mark.parametrize("yaw", (0.0, 1e-6, 1e-4, 1e-3, 4e-3, 6e-3))
 def test_edge_on_edge(yaw):
-    """A beam falls on its edge upon the edge of another one. It may roll off but does not sink by the radius (20 mm)."""
+    """A beam falls on its edge upon that of another one. It may roll off but does not sink by the radius (20 mm)."""
     size, edge = 0.2, Quaternion(Vector3(0, 1, 0), math.pi / 4)
     lower = yt.box((size, 1, size), (0, 0, 0), orientation=edge, fixed=True)
     radius = lower.shape.radius

@@ -40,7 +40,8 @@ def tables(field, path=""):
 def value_words(field):
     """Admissible values of a key, as worded on the page."""
     if isinstance(field, Number):
-        return f"{'whole, ' if field.whole else ''}{field._range().removeprefix(' in ')}"
+        off = ", false" if field.off else ""
+        return f"{'whole, ' if field.whole else ''}{field._range().removeprefix(' in ')}{off}"
     if isinstance(field, Pair):
         return f"list of 2 ({value_words(field.first)}; {value_words(field.second)})"
     if isinstance(field, ListOf):
@@ -61,32 +62,52 @@ def default_words(field):
     return str(field.default).lower() if isinstance(field, Flag) else f"{field.default}" or "empty"
 
 
+def stated_in(path):
+    """Keys whose entries the path states: {'layer', 'type'} of 'stack[] {layer: roof, type: hip}'."""
+    return set(re.findall(r"(\w+): ", path[path.rindex("{"):])) if path.endswith("}") else set()
+
+
 def schema_rows():
-    """{path of a table: {key: (value, default)}}; a table that occurs in several places has the path of the first."""
+    """{path of a table: {key: (value, default)}} without keys that the path states. A table that occurs in several
+    places has the path of the first.
+    """
     seen, rows = set(), {}
     for path, record in tables(HOUSE):
         if id(record) not in seen:
             seen.add(id(record))
-            rows[path] = {key: (value_words(field), default_words(field)) for key, field in record.fields.items()}
+            rows[path] = {key: (value_words(field), default_words(field)) for key, field in record.fields.items()
+                          if key not in stated_in(path)}
     return rows
 
 
+def forms(path):
+    """Paths of a heading, in which ` | ` separates forms with common keys."""
+    choice = re.search(r"\w+(?: \| \w+)+", path)
+    return [path.replace(choice[0], form) for form in choice[0].split(" | ")] if choice else [path]
+
+
 def page_rows():
-    """{path in a heading: {key: (value, default)}} of the page."""
-    rows, here = {}, None
+    """{path: {key: (value, default)}} of the page; a form has the keys of all headings that name it."""
+    rows, here = {}, []
     for line in PAGE.read_text().splitlines():
         heading, row = HEADING.match(line), ROW.match(line)
         if heading:
-            here = rows.setdefault(heading[1].replace("the file", ""), {})
-        elif row and here is not None:
-            assert row[1] not in here, f"{row[1]} stands twice"
-            here[row[1]] = (row[2], row[3])
+            here = [rows.setdefault(path, {}) for path in forms(heading[1].replace("the file", ""))]
+        for table in here if row else ():
+            assert row[1] not in table, f"{row[1]} stands twice"
+            table[row[1]] = (row[2], row[3])
     return rows
 
 
 @pytest.mark.parametrize("path", schema_rows())
 def test_table_is_documented_as_it_is(path):
     assert page_rows().get(path) == schema_rows()[path]
+
+
+def test_forms_share_keys():
+    assert forms("a {layer: roof, type: hip | flat}") == ["a {layer: roof, type: hip}", "a {layer: roof, type: flat}"]
+    assert forms("a") == ["a"]
+    assert stated_in("a {layer: roof, type: hip}") == {"layer", "type"} and stated_in("a {layer: floor}.b[]") == set()
 
 
 def test_page_invents_nothing():

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Scenes changed, read and saved while they run in the background, and energies of a scene that has made no step."""
+import itertools
 import threading
 import time
 
@@ -19,11 +20,14 @@ LISTS = {yw.HouseMonitor: "peak rows", yw.StructureMonitor: "load opening pull r
          yw.TimberJoint: "broken cycles forces largestStretches load plasticStretches springs stretches",
          yw.ManifoldGeom: "points", yw.ManifoldPhys: "points"}
 """Attributes that the engines change within a step."""
+PLACES = itertools.count()
+"""Of joints: the same one twice is refused. [mm]"""
 CALLS = {"save": lambda scene: O.save(scene.path, quiet=True), "saveTmp": lambda scene: O.saveTmp(quiet=True),
          "sceneToString": lambda scene: O.sceneToString(), "engines": lambda scene: setattr(O, "engines", O.engines),
          "dict": lambda scene: scene[yw.HouseMonitor].dict(),
          "append": lambda scene: scene[yw.JointEngine].append(yw.TimberJoint(**scene.joint)),
-         "connect": lambda scene: yt.connect(0, 1, [(0, 0, 0)]), "contacts": lambda scene: yt.contacts(0, 1),
+         "connect": lambda scene: yt.connect(0, 1, [(0, 0, 1e-3 * next(PLACES))]),
+         "contacts": lambda scene: yt.contacts(0, 1),
          "energy": lambda scene: yt.energy(), "energy_residual": lambda scene: yt.energy_residual(),
          "stable_dt": lambda scene: yt.stable_dt(), "natural_modes": lambda scene: natural_modes(),
          "export_scene": lambda scene: yt.export_scene(scene.path),

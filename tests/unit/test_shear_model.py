@@ -70,7 +70,8 @@ def test_periods_of_two_equal_storeys():
 
 @pytest.mark.parametrize("weight", [0.0, 3e5])
 def test_response_is_that_of_an_oscillator(weight):
-    """With P-delta the stiffness is k - W / h, also of the damping ratio. Tolerance: second order in the step, observed 3e-4."""
+    """With P-delta the stiffness is k - W / h, also of the damping ratio. Tolerance: second order in the step, observed
+    3e-4."""
     mass, stiffness, dt = 1e4, 1e6, 0.01
     time = np.arange(0, 8, dt)
     ground = np.sin(2 * np.pi * time / 0.9)
