@@ -3,7 +3,7 @@
 """What decides whether the graded houses stand: single changes of the model, one table.
 
     scripts/validation/graded_changes.py --record PREFIX_OF_JMA_KOBE --start 6 --end 20 [--seeds N]
-        [--changes 'default,finishes off,...'] [--grades 1,1.25,1.5] [--levels design,mean] [--to DIR]
+        [--changes 'default,finishes off,...'] [--grades 1,1.25,1.5] [--levels design,mean] [--no-runs] [--to DIR]
 
 Houses, tests and motion: graded_houses.py. Each row of the table is a change, a grade and a level of the walls. The
 same command continues runs that were stopped; further changes, grades and seeds add to them. finishes: sum of the
@@ -12,6 +12,8 @@ are medians over the runs, of the centre and of the column that drifts most; 1 f
 """
 import math
 import sys
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -37,23 +39,31 @@ from yade_timber.study.options import (Parser, add_driver_options, count, non_ne
 
 UNIT = 1960.0
 """Allowable shear of a wall of multiplier 1. [N/m]"""
+UNCOUNTED = ("mortar", "gypsum")
+"""Sheets of the house that many houses have without a count."""
 CLOSED = {"law": "brittle", "kn": 1e8, "ks": 1e8, "strength": math.inf, "softening_stretch": None,
           "ultimate_stretch": None, "friction_share": None}
 """Fitting that neither opens nor yields; it clamps the column, too."""
 
 
-def finishes(factor):
-    """Change: shears of all finishes times a factor."""
-    def change(data):
-        for table in data["wall_types"].values():
-            if table.get("finish"):
-                table["envelope"] = [[drift, factor * shear] for drift, shear in table["envelope"]]
-    return change
+@dataclass(frozen=True)
+class Change:
+    """Of a graded house: function that changes its content; finish_ratio() with plywood as the only counted sheet."""
+
+    of_content: Callable
+    finishes: float | None = None
+
+
+def scale_finishes(data, factor):
+    """Shears of all finishes times a factor."""
+    for table in data["wall_types"].values():
+        if table.get("finish"):
+            table["envelope"] = [[drift, factor * shear] for drift, shear in table["envelope"]]
 
 
 def law(**values):
-    """Change of the options of the laws."""
-    return lambda data: data["law"].update(values)
+    """Options of the laws."""
+    return Change(lambda data: data["law"].update(values))
 
 
 def without_finishes(data):
@@ -68,42 +78,50 @@ def slip_walls(data):
             table.pop(key, None)
 
 
-def both(*changes):
+def bare(**values):
+    """Without finishes, and with options of the laws."""
     def change(data):
-        for each in changes:
-            each(data)
-    return change
+        without_finishes(data)
+        data["law"].update(values)
+    return Change(change)
 
 
 CHANGES = {
-    "default": lambda data: None,
-    "finishes off": without_finishes,
-    "finishes x 0.5": finishes(0.5),
-    "finishes x 1.5": finishes(1.5),
-    "finishes x 2": finishes(2.0),
+    "default": law(),
+    "finishes off": bare(),
+    "plywood alone": Change(without_finishes, 0.0),
+    **{f"plywood and finishes {ratio:g}": Change(lambda data: None, ratio) for ratio in (1.0, 2.1, 2.8)},
     "damping 0": law(joint_damping=0.0),
     "damping 2 %": law(joint_damping=0.02),
     "damping 5 %": law(joint_damping=0.05),
     "damping of initial stiffness": law(damping_stiffness="initial"),
     "damping 5 % of initial stiffness": law(joint_damping=0.05, damping_stiffness="initial"),
-    "finishes off, damping 2 %": both(without_finishes, law(joint_damping=0.02)),
-    "finishes off, damping 5 %": both(without_finishes, law(joint_damping=0.05)),
-    "law slip": slip_walls,
-    "column ends closed": lambda data: data["joint_types"].update(corner_fitting=CLOSED),
+    "finishes off and damping 2 %": bare(joint_damping=0.02),
+    "finishes off and damping 5 %": bare(joint_damping=0.05),
+    "law slip": Change(slip_walls),
+    "column ends closed": Change(lambda data: data["joint_types"].update(corner_fitting=CLOSED)),
 }
-"""{name: change of the content of a house file}"""
-SHIPPED = ("default", "finishes off", "damping 2 %", "damping 5 %", "finishes off, damping 2 %",
-           "finishes off, damping 5 %")
+"""{name: Change}"""
+SHIPPED = ("default", "finishes off", "damping 2 %", "damping 5 %", "finishes off and damping 2 %",
+           "finishes off and damping 5 %")
 """Finishes off and on, damping as shipped, 2 and 5 %."""
 
 
 def house_file(folder, change, grade, level, rule):
     """Write a house file. Returns its path."""
-    data = graded_house(grade, level, rule)
-    CHANGES[change](data)
-    name = "".join(c if c.isalnum() else "_" for c in f"{change} {grade:g} {level}")
-    path = folder / f"{name}.yaml"
-    data["name"] = name
+    wanted = CHANGES[change].finishes
+    data = graded_house(grade, level, rule, () if wanted is None else UNCOUNTED)
+    CHANGES[change].of_content(data)
+    data["name"] = "".join(c if c.isalnum() else "_" for c in f"{change} {grade:g} {level}")
+    path = _written(folder, change, data)
+    if wanted:
+        scale_finishes(data, wanted / finish_ratio(path))
+        _written(folder, change, data)
+    return path
+
+
+def _written(folder, change, data):
+    path = folder / f"{data['name']}.yaml"
     write_text(path, f"# Graded house with one change: {change}\n{house_text(data)}")
     return path
 
@@ -113,7 +131,7 @@ def finish_ratio(path):
     description = load_house(path)
     model, types = build_house(description), description.data["wall_types"]
     required = UNIT * REQUIRED[0] * floor_area(model, STRUCTURE, 1)
-    return min(sum(j.strength for j in wall_joints(model, 1, axis) if types[j.type].get("finish")) / SHARE / required
+    return min(sum(j.strength for j in wall_joints(model, 1, axis) if types[j.type]["finish"]) / SHARE / required
                for axis in AXES)
 
 
@@ -159,6 +177,7 @@ def parsed():
                          help=f"default: all; shipped: {', '.join(SHIPPED)}".replace("%", "%%"))
     options.add_argument("--grades", default="1,1.25,1.5", help="default %(default)s")
     options.add_argument("--levels", default="design,mean", help="of the walls (default %(default)s)")
+    options.add_argument("--no-runs", action="store_true", help="table of the runs that are done")
     options.add_argument("--to", type=results_folder, metavar="DIR", help="folder of the table")
     return options.parse_args()
 
@@ -174,13 +193,14 @@ def main():
               for change in changes for grade in map(float, given.grades.split(","))
               for level in selected(given.levels, LEVELS, "--levels")}
     runs = {key: tasks(path, shaking, given.seeds, given.out) for key, path in houses.items()}
-    run_missing([task for each in runs.values() for task in each], SCRIPTS, given.jobs)
+    if not given.no_runs:
+        run_missing([task for each in runs.values() for task in each], SCRIPTS, given.jobs)
     rows = []
     for key, each in runs.items():
         results = [load_run(task.folder) for task in each if task.summary is not None]
         if results:
             rows.append(row(*key, houses[key], results))
-        else:
+        elif not given.no_runs:
             print(f"{each[0].folder}: no run has ended well; its run.log says why")
     table = csv_text(list(rows[0]), [[f"{v:.4g}" if isinstance(v, float) else v for v in r.values()] for r in rows])
     write_text(to / f"{given.out.name}.csv", table)

@@ -77,9 +77,12 @@ def listed(value):
     return value if isinstance(value, (list, tuple)) else [value]
 
 
-def graded_house(grade, level, rule):
-    """Content of the house file of a grade, level of walls and rule, as a dict."""
+def graded_house(grade, level, rule, uncounted=()):
+    """Content of the house file of a grade, level of walls and rule, as a dict. uncounted: wall types that become
+    finishes, so that the others alone have the quantity and these their own shear."""
     data = changed_house(HOUSE)
+    for name in uncounted:
+        data["wall_types"][name] |= {"finish": True, "multiplier": 0.0}
     model = build_house(load_house(HOUSE))
     walls, types = [], {}
     for (storey, direction), factor in factors(model, data["wall_types"], grade, rule).items():
