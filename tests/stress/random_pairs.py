@@ -15,6 +15,8 @@ LARGEST_SPEED = 50.0
 """[m/s]"""
 LARGEST_MASS_RATIO = 1e6
 """[-]"""
+PLACED = 3e-4
+"""Largest initial overlap; bodies that are placed deeper than 0.5 mm are refused. [m]"""
 STEP_SHARE = 0.1
 """Time step of a pair times the angular frequency of one contact point on the lighter body [-]. Eight points whose arms
 quarter the effective mass have sqrt(32) = 5.7 times this frequency: omega dt < 0.6 (stable: 2)."""
@@ -139,7 +141,7 @@ def make_pair(random, overlap):
     largest_overlap, stiffness = impact_scale(bodies, speed, snow)
     dt = min(STEP_SHARE / np.sqrt(stiffness * mobility(bodies, largest_overlap)), TRAVEL_SHARE * radii / (3 * speed),
              ROTATION / max(np.linalg.norm(spin[light]), 1e-9))
-    gap = -overlap * largest_overlap if overlap else 3 * speed * dt
+    gap = -min(overlap * largest_overlap, PLACED) if overlap else 3 * speed * dt
     for body, position in zip(bodies, (-point1, gap * outward1 - rotation_2 @ point2)):
         body.state.pos = body.state.refPos = Vector3(*position)
     velocity = np.array([np.zeros(3), -speed * outward1 + 0.3 * speed * direction(random)])
