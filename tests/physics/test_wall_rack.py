@@ -47,8 +47,8 @@ def test_mean_level_beside_the_boards(tmp_path, wall):
 
 
 def test_pinching(tmp_path):
-    """Law slip, third cycle at 1/30 of the level mean: from the unloaded state there is 20 % of the peak's load within the slack,
-    then the way back to the peak.
+    """Law slip, third cycle at 1/30 of the level mean: from the unloaded state there is 20 % of the peak's load within
+    the slack, then the way back to the peak.
     """
     rack = Rack(tmp_path, "{multiplier: 2.5, friction_share: 0.2}")
     peak = rack.path(0, 1 / 30, -1 / 30, 1 / 30, -1 / 30, 1 / 30)[-1][1]
