@@ -12,12 +12,12 @@ import numpy as np
 import pytest
 import yade.wrapper as yw
 from yade import O, PyRunner
-from yade_timber.recording import frames
-from yade_timber.base import lock
-from yade_timber.run import live
-from yade_timber.run.options import RunOptions
-from yade_timber.run.runner import Run
-from yade_timber.scene import scenario
+from timber_houses.recording import frames
+from timber_houses.base import lock
+from timber_houses.run import live
+from timber_houses.run.options import RunOptions
+from timber_houses.run.runner import Run
+from timber_houses.scene import scenario
 from yade_timber.scene.engines import find_engine
 
 
