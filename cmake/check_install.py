@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Run inside `yade -n -x`: the installed plugin passes its checks and has registered its classes; it has the application
-beside it.
+"""Run inside `yade -n -x`: the installed plugin passes its checks and has registered its classes; the application
+is beside it.
 """
 import timber_houses
 import yade_timber
