@@ -11,6 +11,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import yade.wrapper as yw
+import yade_timber as yt
 from yade import O, PyRunner
 from timber_houses.recording import frames
 from timber_houses.base import lock
@@ -19,6 +20,8 @@ from timber_houses.run.options import RunOptions
 from timber_houses.run.runner import Run
 from timber_houses.scene import scenario
 from yade_timber.scene.engines import find_engine
+
+yt.guard()
 
 
 def begin(folder, steps=4000, quiet=True, **more):
