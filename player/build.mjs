@@ -7,7 +7,7 @@ import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 
 const here = dirname(fileURLToPath(import.meta.url));
-const target = process.argv[2] ?? join(here, "../py/yade_timber/data/player");
+const target = process.argv[2] ?? join(here, "../py/timber_houses/data/player");
 const three = join(here, "node_modules/three");
 
 /** SHA-256 of the names and contents of all inputs of the bundle; tests/unit/test_player_asset.py computes the same. */

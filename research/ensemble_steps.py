@@ -13,13 +13,13 @@ from itertools import chain
 from timber_research import SCRIPTS, two_ensembles
 from timber_research.claims import parse_run
 from timber_research.report import markdown_table
-from yade_timber.base.atomic_write import write_text
-from yade_timber.base.table import csv_text
-from yade_timber.house.disturbance import LARGEST
-from yade_timber.run.options import scripted
-from yade_timber.study.driver import run_missing
-from yade_timber.study.ensemble import tasks
-from yade_timber.study.options import (Parser, add_driver_options, count, non_negative, positive, results_folder,
+from yade_timber.atomic_write import write_text
+from timber_houses.base.table import csv_text
+from timber_houses.house.disturbance import LARGEST
+from timber_houses.run.options import scripted
+from timber_houses.study.driver import run_missing
+from timber_houses.study.ensemble import tasks
+from timber_houses.study.options import (Parser, add_driver_options, count, non_negative, positive, results_folder,
                                        run_script, selected)
 
 CASES = ("modelC2_snow", "modelA_quake", "modelB1_quake")

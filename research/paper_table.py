@@ -11,12 +11,12 @@ import argparse
 
 from timber_research import SCRIPTS, report
 from timber_research.claims import RUNS, judge, parse_run
-from yade_timber.base.errors import RunError
-from yade_timber.base.options import add_options, options, read_arguments
-from yade_timber.motion import MotionRequest
-from yade_timber.run.options import RunOptions, scripted
-from yade_timber.study.driver import Task, run_missing
-from yade_timber.study.options import Parser, add_driver_options, record, run_script
+from timber_houses.base.errors import RunError
+from timber_houses.base.options import add_options, options, read_arguments
+from timber_houses.motion import MotionRequest
+from timber_houses.run.options import RunOptions, scripted
+from timber_houses.study.driver import Task, run_missing
+from timber_houses.study.options import Parser, add_driver_options, record, run_script
 
 SHARED = ("record", "seed", "scale", "start", "end", "dt", "duration")
 """Options that are passed to the fourteen runs."""

@@ -12,10 +12,10 @@ from pathlib import Path
 
 from timber_research import SCRIPTS, comparison
 from timber_research.claims import RUNS, parse_run
-from yade_timber.base.errors import RunError
-from yade_timber.run.options import scripted
-from yade_timber.study.driver import Task, run_missing
-from yade_timber.study.options import Parser, add_driver_options, list_of, record, run_script, seed
+from timber_houses.base.errors import RunError
+from timber_houses.run.options import scripted
+from timber_houses.study.driver import Task, run_missing
+from timber_houses.study.options import Parser, add_driver_options, list_of, record, run_script, seed
 
 SHIPPED = "shipped"
 

@@ -15,10 +15,10 @@ import argparse
 from timber_research import SCRIPTS, design
 from timber_research.screening import cells, picture, report
 from timber_research.screening.collect import collect
-from yade_timber.study.batch import read_table, run_rows, write_runs
-from yade_timber.study.batch.tasks import task_of
-from yade_timber.study.options import (Parser, add_driver_options, list_of, non_negative, positive, record, run_script,
-                                       seed)
+from timber_houses.study.batch import read_table, run_rows, write_runs
+from timber_houses.study.batch.tasks import task_of
+from timber_houses.study.options import (Parser, add_driver_options, list_of, non_negative, positive, record,
+                                         run_script, seed)
 
 
 def arguments():

@@ -1,12 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # Any house: yade -n -x scripts/house.py my_house.yaml [--quake | --record FILE_OR_PREFIX] [--snow METRES]; all options:
 # -h.
-import sys
-
-if "yade.wrapper" not in sys.modules:
-    sys.exit(f"error: this script runs in YADE: yade -n -x {sys.argv[0]}")
-
-import yade_timber as yt  # noqa: E402, F401  (for the live session)
-from yade_timber.api.script import main_house
-
+"O" in globals() or exit("error: this script runs in YADE: yade -n -x house.py")
+from timber_houses.api.script import main_house, th, yt  # noqa: F401  (th, yt: for the prompt)
 run = main_house()

@@ -1,11 +1,4 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# House B, 1 m of snow on the roof, no earthquake (paper, section 4.2).
-import sys
-
-if "yade.wrapper" not in sys.modules:
-    sys.exit(f"error: this script runs in YADE: yade -n -x {sys.argv[0]}")
-
-import yade_timber as yt  # noqa: E402, F401  (for the live session)
-from yade_timber.api.script import main
-
-run = main("B", snow=True)
+"O" in globals() or exit("error: this script runs in YADE: yade -n -x modelB_snow.py")
+from timber_houses.api.script import main, th, yt  # noqa: F401  (th, yt: for the prompt)
+run = main("modelB_snow")

@@ -18,9 +18,9 @@ from hypothesis import strategies as st
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "py"))
 
-from yade_timber.base.errors import InputError
-from yade_timber.house import build_house, load_house
-from yade_timber.motion import add_motion_options, motion_request, read_motion
+from timber_houses.base.errors import InputError
+from timber_houses.house import build_house, load_house
+from timber_houses.motion import add_motion_options, motion_request, read_motion
 
 SECONDS = 5
 """Processor time of one example. [s]"""

@@ -4,8 +4,8 @@ the east and tips.
 """
 import numpy as np
 from summaries import sample_summary
-from yade_timber.recording.frames import Contacts, Elements, Frames, Joints, Motion
-from yade_timber.recording.history import History
+from timber_houses.recording.frames import Contacts, Elements, Frames, Joints, Motion
+from timber_houses.recording.history import History
 
 FACES = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
 CUBE = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])

@@ -4,8 +4,8 @@ from dataclasses import is_dataclass, replace
 from types import UnionType
 from typing import get_origin
 
-from yade_timber.base.json_types import types
-from yade_timber.recording.summary import Record, Summary
+from timber_houses.base.json_types import types
+from timber_houses.recording.summary import Record, Summary
 
 
 def blank(kind):

@@ -42,7 +42,7 @@ def class_lines(cls):
         doc = getattr(item, "__doc__", None) or ""
         if isinstance(item, property):
             lines += attribute_lines(name, doc)
-        elif not name.startswith("_") and name != "updateAttrs" and callable(item):
+        elif not name.startswith("_") and name not in ("dict", "updateAttrs") and callable(item):
             lines += [f"   .. py:method:: {name}()", "", *indented(body_of(doc), 6)]
     return lines
 

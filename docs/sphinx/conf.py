@@ -10,10 +10,10 @@ sys.path.insert(0, str(HERE))
 
 from class_page import write_classes
 
-import yade_timber
+import timber_houses
 
 project, author, copyright = "yade-timber", "The yade-timber developers", "the yade-timber developers, GPL-2.0-or-later"
-version = release = yade_timber.__version__
+version = release = timber_houses.__version__
 extensions = ["sphinx.ext.autodoc", "numpydoc", "myst_parser"]
 exclude_patterns = ["docs/sphinx", "py", "scripts"]
 html_theme = "sphinx_rtd_theme"

@@ -15,7 +15,7 @@ to one side
 import math
 from dataclasses import dataclass
 
-from yade_timber.text.english import direction_name, ratio
+from timber_houses.text.english import direction_name, ratio
 
 SWAY = 1 / 120
 """Smallest sway that counts: Japanese practice assumes damage of a timber house beyond this drift. [-]"""

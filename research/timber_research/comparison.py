@@ -2,8 +2,8 @@
 """The claims under several ground motions: in how many of them each holds, and what becomes of each house. Needs no
 YADE.
 """
-from yade_timber.base.atomic_write import write_text
-from yade_timber.base.table import csv_text
+from yade_timber.atomic_write import write_text
+from timber_houses.base.table import csv_text
 
 from . import report
 from .claims import RUNS, drift_text, judge, parse_run, sway, time_text

@@ -9,7 +9,7 @@ import copy
 import json
 from dataclasses import dataclass, field
 
-from yade_timber.house.loader import SHIPPED, load_table
+from timber_houses.house.loader import SHIPPED, load_table
 
 MATERIALS = ("timber", "roofing", "snow")
 

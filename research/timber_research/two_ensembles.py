@@ -11,9 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy import stats
-from yade_timber.text.english import counted, span
-from yade_timber.recording.verdict import STATES
-from yade_timber.study.retrofit.race import holm
+from timber_houses.text.english import counted, span
+from timber_houses.recording.verdict import STATES
+from timber_houses.study.retrofit.race import holm
 
 from .claims import damage
 from .screening.responses import drift, lean

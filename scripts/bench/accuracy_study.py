@@ -18,9 +18,9 @@ sys.path[:0] = [str(ROOT / "tests"), str(ROOT / "tests" / "physics")]
 
 from cases import all_cases
 from rows import Row
-from yade_timber.base.atomic_write import write_text
-from yade_timber.base.errors import RunError
-from yade_timber.study.options import Parser, results_folder, run_script
+from yade_timber.atomic_write import write_text
+from timber_houses.base.errors import RunError
+from timber_houses.study.options import Parser, results_folder, run_script
 
 HEADS = ("section", "quantity", "expected", "computed", "error", "bound", "dt [s]", "order", "within", "note")
 

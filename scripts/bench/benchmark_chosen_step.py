@@ -24,9 +24,9 @@ sys.path[:0] = [str(ROOT / "scripts/bench")]
 import yade_timber as yt
 from bench_tools import write_table
 from precision_cases import REFERENCE, SAMPLE, STEP_CASES, build_house, error, joint_forces
-from yade_timber.base.time_step import DEFAULT_DT
+from timber_houses.base.time_step import DEFAULT_DT
 from yade_timber.scene import engines
-from yade_timber.study.options import Parser, count, results_folder, run_script
+from timber_houses.study.options import Parser, count, results_folder, run_script
 
 O = yw.Omega()
 

@@ -23,8 +23,8 @@ import yade_timber as yt
 from bench_tools import cpu_per_step, interleaved, machine, parser, publish
 from tables import markdown_table
 from yade.minieigenHP import Vector3
-from yade_timber.base.errors import RunError
-from yade_timber.study.options import count, run_script
+from timber_houses.base.errors import RunError
+from timber_houses.study.options import count, run_script
 
 O = yw.Omega()
 

@@ -23,10 +23,10 @@ import extreme_runs
 import stable_steps
 from bench_tools import write_table
 from precision_cases import CASES, REFERENCE, SAMPLE, error, joint_forces
-from yade_timber.base.errors import RunError
-from yade_timber.base.time_step import MAX_DT
-from yade_timber.house.errors import StepError
-from yade_timber.study.options import Parser, positive, results_folder, run_script
+from timber_houses.base.errors import RunError
+from timber_houses.base.time_step import MAX_DT
+from timber_houses.house.errors import StepError
+from timber_houses.study.options import Parser, positive, results_folder, run_script
 
 O = yw.Omega()
 

@@ -20,10 +20,11 @@ sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a scrip
 
 from bench_tools import SETTLING, STATES, parser, publish
 from tables import markdown_table
-from yade_timber.base.errors import RunError
-from yade_timber.motion import default_motion
-from yade_timber.scene import engines, scenario
-from yade_timber.study.options import run_script
+from timber_houses.base.errors import RunError
+from timber_houses.motion import default_motion
+from timber_houses.scene import scenario
+from yade_timber.scene import engines
+from timber_houses.study.options import run_script
 
 O = yw.Omega()
 

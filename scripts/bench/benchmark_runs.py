@@ -16,9 +16,9 @@ sys.path.insert(0, str(SCRIPTS / "bench"))
 
 from bench_tools import publish
 from tables import markdown_table
-from yade_timber.base.errors import RunError
-from yade_timber.recording.summary import Summary
-from yade_timber.study.options import Parser, positive, results_folder, run_script
+from timber_houses.base.errors import RunError
+from timber_houses.recording.summary import Summary
+from timber_houses.study.options import Parser, positive, results_folder, run_script
 
 RUNS = {"A, earthquake": ("modelA_quake.py",), "C2, earthquake and 1 m of snow": ("modelC2_snow.py",),
         "tiled_house, earthquake": ("house.py", "tiled_house", "--quake")}

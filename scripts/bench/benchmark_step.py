@@ -18,11 +18,12 @@ sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a scrip
 
 from bench_tools import (SETTLING, STATES, cpu_per_step, interleaved, machine, parser, publish, wall_per_step)
 from tables import markdown_table
-from yade_timber.base.errors import RunError
-from yade_timber.base.time_step import DEFAULT_DT
-from yade_timber.motion import default_motion
-from yade_timber.scene import engines, scenario
-from yade_timber.study.options import non_negative, positive, run_script
+from timber_houses.base.errors import RunError
+from timber_houses.base.time_step import DEFAULT_DT
+from timber_houses.motion import default_motion
+from timber_houses.scene import scenario
+from yade_timber.scene import engines
+from timber_houses.study.options import non_negative, positive, run_script
 
 NO_MARGIN = 1e-9
 """Of boxes that the collider extends. [m]"""

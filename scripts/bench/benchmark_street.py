@@ -21,13 +21,14 @@ sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a scrip
 from bench_tools import (BARE_MEMORY, SCALING, cpu_per_step, interleaved, machine, parser, publish, resident_memory,
                          scaling, wall_per_step)
 from tables import markdown_table
-from yade_timber.base.errors import RunError
-from yade_timber.base.time_step import DEFAULT_DT
-from yade_timber.house import build_house, load_house
-from yade_timber.motion import default_motion
-from yade_timber.scene import engines, scenario
-from yade_timber.study.driver import command
-from yade_timber.study.options import count, run_script
+from timber_houses.base.errors import RunError
+from timber_houses.base.time_step import DEFAULT_DT
+from timber_houses.house import build_house, load_house
+from timber_houses.motion import default_motion
+from timber_houses.scene import scenario
+from yade_timber.scene import engines
+from timber_houses.study.driver import command
+from timber_houses.study.options import count, run_script
 
 O = yw.Omega()
 

@@ -21,12 +21,12 @@ sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a scrip
 from bench_tools import BARE_MEMORY, SCALING, machine, parser, publish, resident_memory, scaling
 from tables import markdown_table
 from yade_timber.plugin import compiled
-from yade_timber.base.errors import RunError
-from yade_timber.base.time_step import DEFAULT_DT
-from yade_timber.run import cli, town
-from yade_timber.run.plan import planned
-from yade_timber.study.driver import command
-from yade_timber.study.options import count, run_script
+from timber_houses.base.errors import RunError
+from timber_houses.base.time_step import DEFAULT_DT
+from timber_houses.run import cli, town
+from timber_houses.run.plan import planned
+from timber_houses.study.driver import command
+from timber_houses.study.options import count, run_script
 
 SPACING = 14.0
 """Distance of the lots, which form rows of ten. [m]"""

@@ -7,8 +7,9 @@ import numpy as np
 import yade.wrapper as yw
 import yade_timber as yt
 from yade.minieigenHP import Quaternion, Vector3
-from yade_timber.motion import GroundMotion, default_motion
-from yade_timber.scene import engines, scenario
+from timber_houses.motion import GroundMotion, default_motion
+from timber_houses.scene import scenario
+from yade_timber.scene import engines
 
 O = yw.Omega()
 

@@ -16,8 +16,8 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
 from tables import markdown_table
-from yade_timber.base.atomic_write import write_text, written_whole
-from yade_timber.base.time_step import DEFAULT_DT
+from yade_timber.atomic_write import write_text, written_whole
+from timber_houses.base.time_step import DEFAULT_DT
 
 TOLERATED = 0.01
 """Error up to which a time step is called exact [-]"""

@@ -11,9 +11,9 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 
-import yade_timber as yt
-from yade_timber.base.colors import BLUE, GREEN, ORANGE
-from yade_timber.text.english import DRIFT_LINES, ratio
+import timber_houses as th
+from timber_houses.base.colors import BLUE, GREEN, ORANGE
+from timber_houses.text.english import DRIFT_LINES, ratio
 
 SHAKING = {"motion": "shipped", "start": 17}  # strong shaking begins at 18.8 s
 OUTER_WALLS = ("NS.x0", "NS.x8", "EW.y0", "EW.y9")
@@ -56,10 +56,10 @@ def plot(runs, path):
 def main():
     options = arguments()
     options.out.mkdir(parents=True, exist_ok=True)
-    house = yt.house("A")
+    house = th.house("A")
     houses = {"as it is": house, "16 braces": house.variant(options.out / "braced.yaml", braces=corner_bays(house)),
               "joints of twice the strength": house.variant(options.out / "strong_joints.yaml", strength=2.0)}
-    runs = {name: yt.run(h, duration=options.duration, out=options.out / Path(h.given).stem, **SHAKING)
+    runs = {name: th.run(h, duration=options.duration, out=options.out / Path(h.given).stem, **SHAKING)
             for name, h in houses.items()}
     plot(runs, options.out / "drifts.png")
     _, braced, strong = runs.values()

@@ -11,10 +11,10 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 
-import yade_timber as yt
-from yade_timber.base.colors import BLUE, ORANGE
-from yade_timber.base.table import csv_text
-from yade_timber.text.english import DRIFT_LINES, ratio
+import timber_houses as th
+from timber_houses.base.colors import BLUE, ORANGE
+from timber_houses.base.table import csv_text
+from timber_houses.text.english import DRIFT_LINES, ratio
 
 START = 17.0
 """The motions are cut there; strong shaking begins at about 19 s. [s]"""
@@ -57,9 +57,9 @@ def plot(house, runs, path):
 
 def main():
     options = arguments()
-    house, seeds = yt.house(options.house), range(1, options.motions + 1)
+    house, seeds = th.house(options.house), range(1, options.motions + 1)
     runs = [
-        yt.run(house, seed=seed, start=START, duration=options.duration, out=options.out / f"seed_{seed}",
+        th.run(house, seed=seed, start=START, duration=options.duration, out=options.out / f"seed_{seed}",
                no_frames=True)
         for seed in seeds
     ]

@@ -20,13 +20,13 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
 
 from PIL import Image
 
-from yade_timber.base.atomic_write import written_whole
-from yade_timber.base.errors import RunError
-from yade_timber.house import build_house, load_house
-from yade_timber.motion import default_motion
-from yade_timber.pictures import curves, drawings, figures, film, motion_sheet, player, sheets
-from yade_timber.pictures.views import FRONT, SIDE
-from yade_timber.recording import frames
+from yade_timber.atomic_write import written_whole
+from timber_houses.base.errors import RunError
+from timber_houses.house import build_house, load_house
+from timber_houses.motion import default_motion
+from timber_houses.pictures import curves, drawings, figures, film, motion_sheet, player, sheets
+from timber_houses.pictures.views import FRONT, SIDE
+from timber_houses.recording import frames
 
 SHEETS = ("modelA_snow", "modelA_quake", "modelC2_snow")
 HISTORY = "modelA_quake"

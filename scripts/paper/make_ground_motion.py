@@ -12,9 +12,9 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
 
-from yade_timber.motion import DEFAULT_RECORD, synthetic_motion, write_csv
-from yade_timber.motion.synthetic import DEFAULT_SEED, GENERATOR_VERSION, TARGETS, achieved
-from yade_timber.study.options import Parser, run_script, seed
+from timber_houses.motion import DEFAULT_RECORD, synthetic_motion, write_csv
+from timber_houses.motion.synthetic import DEFAULT_SEED, GENERATOR_VERSION, TARGETS, achieved
+from timber_houses.study.options import Parser, run_script, seed
 
 LABELS = {"pga_ns": "PGA NS [gal]", "pga_ew": "PGA EW [gal]", "pga_ud": "PGA UD [gal]",
           "pga_h": "PGA horizontal vector [gal]", "pgv_h": "PGV horizontal vector [cm/s]", "jma": "JMA intensity",

@@ -9,7 +9,7 @@ import argparse
 
 from show_common import Parser, errors_in_a_line, frames_path, path
 
-from yade_timber.recording import frames
+from timber_houses.recording import frames
 
 
 def positive(text):
@@ -32,7 +32,7 @@ def main():
     file = frames_path(options.run)
     out = options.out or file.parent / "vtk"
     with errors_in_a_line(out):
-        from yade_timber.pictures import vtk
+        from timber_houses.pictures import vtk
 
         written = vtk.export(out, frames.load(file), options.every)
     print("written: " + ", ".join(map(str, written)))

@@ -15,8 +15,8 @@ import time
 
 from show_common import Parser, errors_in_a_line, frames_path, path
 
-from yade_timber.pictures import camera, film
-from yade_timber.recording import frames
+from timber_houses.pictures import camera, film
+from timber_houses.recording import frames
 
 ENDINGS = (".mp4", ".webp")
 

@@ -9,9 +9,9 @@ import argparse
 
 from show_common import Parser, errors_in_a_line, frames_path, path
 
-from yade_timber.pictures import player
-from yade_timber.pictures.all_pictures import PLAYER
-from yade_timber.recording import frames
+from timber_houses.pictures import player
+from timber_houses.pictures.all_pictures import PLAYER
+from timber_houses.recording import frames
 
 
 def arguments():

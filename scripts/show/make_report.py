@@ -6,7 +6,7 @@
 """
 from show_common import Parser, errors_in_a_line, path
 
-from yade_timber.pictures import report
+from timber_houses.pictures import report
 
 
 def arguments():

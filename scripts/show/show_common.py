@@ -8,8 +8,8 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
 
-from yade_timber.base.encoding import print_anything
-from yade_timber.base.errors import InputError
+from timber_houses.base.encoding import print_anything
+from timber_houses.base.errors import InputError
 
 print_anything()
 
@@ -38,7 +38,7 @@ def file_name(name):
 
 def frames_path(run):
     """The frames of a run, given as its folder or as the file."""
-    from yade_timber.recording import frames
+    from timber_houses.recording import frames
 
     return run / frames.NAME if run.is_dir() else run
 

@@ -10,10 +10,10 @@ from pathlib import Path
 
 from show_common import Parser, errors_in_a_line, file_name, path
 
-from yade_timber.base.errors import RunError
-from yade_timber.house import build_house, diagnose, load_house, shipped_houses, weigh
-from yade_timber.pictures import drawings
-from yade_timber.study.own_weight import check_own_weight
+from timber_houses.base.errors import RunError
+from timber_houses.house import build_house, diagnose, load_house, shipped_houses, weigh
+from timber_houses.pictures import drawings
+from timber_houses.study.own_weight import check_own_weight
 
 SCRIPTS = Path(__file__).resolve().parents[1]
 

@@ -12,12 +12,12 @@ import sys
 
 from show_common import Parser, errors_in_a_line, file_name, path
 
-from yade_timber.base.notes import noted
-from yade_timber.base.time_step import DEFAULT_DT
-from yade_timber.motion import (RecordError, add_motion_options, arias, interpolation_error, jma_intensity,
+from timber_houses.base.notes import noted
+from timber_houses.base.time_step import DEFAULT_DT
+from timber_houses.motion import (RecordError, add_motion_options, arias, interpolation_error, jma_intensity,
                                 motion_request, pga, pgd, pgv, scaled, significant_duration, with_then)
-from yade_timber.motion.measures import stated_intensity
-from yade_timber.pictures import motion_sheet
+from timber_houses.motion.measures import stated_intensity
+from timber_houses.pictures import motion_sheet
 
 
 def print_measures(motion, corner, dt):

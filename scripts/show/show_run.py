@@ -5,8 +5,8 @@ import sys
 
 from show_common import Parser, errors_in_a_line, path
 
-from yade_timber.base.atomic_write import make_folder
-from yade_timber.pictures import all_pictures
+from timber_houses.base.files import make_folder
+from timber_houses.pictures import all_pictures
 
 
 def arguments():

@@ -14,10 +14,10 @@ from pathlib import Path
 SCRIPTS = Path(__file__).resolve().parents[1]
 sys.path.append(str(SCRIPTS.parent / "py"))  # after the installed package, which the runs use
 
-from yade_timber.study.batch import RUNS, BatchError, read_table, run_rows, write_runs
-from yade_timber.study.batch.table import COLUMNS
-from yade_timber.study.driver import STATES
-from yade_timber.study.options import Parser, count, results_folder, run_script
+from timber_houses.study.batch import RUNS, BatchError, read_table, run_rows, write_runs
+from timber_houses.study.batch.table import COLUMNS
+from timber_houses.study.driver import STATES
+from timber_houses.study.options import Parser, count, results_folder, run_script
 
 
 def arguments():

@@ -19,8 +19,8 @@ from scipy import optimize, stats
 from scipy.special import ndtr
 from study_common import house_name, parser, run_all, save, write_table
 
-from yade_timber.base.colors import BLUE, GREEN, GREY, ORANGE
-from yade_timber.study.options import count, list_of, non_negative, positive, run_script
+from timber_houses.base.colors import BLUE, GREEN, GREY, ORANGE
+from timber_houses.study.options import count, list_of, non_negative, positive, run_script
 
 SCALES = {"A": [0.5, 0.7, 0.85, 1.0, 1.25], "B": [0.8, 1.0, 1.25, 1.6, 2.0], "C": [1.0, 1.25, 1.6, 2.0, 2.5]}
 """Factors on the motion that cover the curve of each house; --scales replaces them."""

@@ -18,15 +18,15 @@ from pathlib import Path
 
 from study_common import SCRIPTS, house_name
 
-from yade_timber.base.atomic_write import write_text
-from yade_timber.base.errors import RunError
-from yade_timber.base.time_step import DEFAULT_DT
-from yade_timber.pictures import all_pictures, report
-from yade_timber.study.driver import Task, run_missing
-from yade_timber.study.options import Parser, add_driver_options, count, non_negative, positive, run_script
-from yade_timber.study.retrofit import motions, overview, race
-from yade_timber.study.retrofit.candidates import GROUPS, KINDS, USUAL_KINDS, candidates
-from yade_timber.study.retrofit.runs import Ranking
+from yade_timber.atomic_write import write_text
+from timber_houses.base.errors import RunError
+from timber_houses.base.time_step import DEFAULT_DT
+from timber_houses.pictures import all_pictures, report
+from timber_houses.study.driver import Task, run_missing
+from timber_houses.study.options import Parser, add_driver_options, count, non_negative, positive, run_script
+from timber_houses.study.retrofit import motions, overview, race
+from timber_houses.study.retrofit.candidates import GROUPS, KINDS, USUAL_KINDS, candidates
+from timber_houses.study.retrofit.runs import Ranking
 
 
 def arguments():

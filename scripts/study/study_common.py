@@ -14,12 +14,12 @@ import matplotlib.style
 matplotlib.use("Agg")
 matplotlib.style.use("default")  # whatever the matplotlibrc of the user says
 
-from yade_timber.base.atomic_write import write_text, written_whole
-from yade_timber.base.errors import RunError
-from yade_timber.base.table import csv_text
-from yade_timber.study.batch import read_table, run_rows, write_runs
-from yade_timber.study.options import Parser, add_driver_options, non_negative, positive, results_folder
-from yade_timber.study.retrofit.motions import END, START
+from yade_timber.atomic_write import write_text, written_whole
+from timber_houses.base.errors import RunError
+from timber_houses.base.table import csv_text
+from timber_houses.study.batch import read_table, run_rows, write_runs
+from timber_houses.study.options import Parser, add_driver_options, non_negative, positive, results_folder
+from timber_houses.study.retrofit.motions import END, START
 
 
 def parser(about, folder):

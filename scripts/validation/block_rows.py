@@ -22,9 +22,9 @@ sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a scrip
 
 import yade_timber as yt
 from row_of_blocks import Row, touch_times, wave_speed
-from yade_timber.base.atomic_write import write_text, written_whole
-from yade_timber.base.table import csv_text
-from yade_timber.study.options import Parser, positive, results_folder, run_script
+from yade_timber.atomic_write import write_text, written_whole
+from timber_houses.base.table import csv_text
+from timber_houses.study.options import Parser, positive, results_folder, run_script
 
 O = yw.Omega()
 

@@ -25,16 +25,16 @@ from graded_houses import TEST, motion_of
 from house_storeys import AXES, wall_joints
 from wall_grades import REQUIRED, STRUCTURE, graded_house
 
-from yade_timber.api.result import load_run
-from yade_timber.base.atomic_write import write_text
-from yade_timber.base.table import csv_text
-from yade_timber.house import LEVELS, build_house, load_house
-from yade_timber.house.parser import house_text
-from yade_timber.house.walls import SHARE
-from yade_timber.house.weight import floor_area
-from yade_timber.run.options import RunOptions
-from yade_timber.study.driver import Task, run_missing
-from yade_timber.study.options import (Parser, add_driver_options, count, non_negative, positive, record,
+from timber_houses.api.result import load_run
+from yade_timber.atomic_write import write_text
+from timber_houses.base.table import csv_text
+from timber_houses.house import LEVELS, build_house, load_house
+from timber_houses.house.parser import house_text
+from timber_houses.house.walls import SHARE
+from timber_houses.house.weight import floor_area
+from timber_houses.run.options import RunOptions
+from timber_houses.study.driver import Task, run_missing
+from timber_houses.study.options import (Parser, add_driver_options, count, non_negative, positive, record,
                                        results_folder, run_script, seed, selected)
 
 UNIT = 1960.0

@@ -33,15 +33,15 @@ from kobe_like import kobe_like
 from shear_model import LIMIT, first_period, response
 from wall_grades import RULES, STRUCTURE, house_file
 
-from yade_timber.api.result import load_run
-from yade_timber.base.atomic_write import write_text, written_whole
-from yade_timber.base.errors import RunError
-from yade_timber.base.table import csv_text
-from yade_timber.house import LEVELS, build_house, load_house
-from yade_timber.motion import processing, read_motion, write_csv
-from yade_timber.run.options import RunOptions
-from yade_timber.study.driver import Task, run_missing
-from yade_timber.study.options import (Parser, add_driver_options, count, non_negative, positive, record,
+from timber_houses.api.result import load_run
+from yade_timber.atomic_write import write_text, written_whole
+from timber_houses.base.errors import RunError
+from timber_houses.base.table import csv_text
+from timber_houses.house import LEVELS, build_house, load_house
+from timber_houses.motion import processing, read_motion, write_csv
+from timber_houses.run.options import RunOptions
+from timber_houses.study.driver import Task, run_missing
+from timber_houses.study.options import (Parser, add_driver_options, count, non_negative, positive, record,
                                        results_folder, run_script, seed, selected)
 
 DAMPED = 0.10

@@ -16,12 +16,12 @@ sys.path.append(str(SCRIPTS.parent / "py"))  # after the installed package, whic
 
 from wall_grades import house_file
 
-from yade_timber.api.result import load_run
-from yade_timber.base.atomic_write import write_text
-from yade_timber.base.table import csv_text
-from yade_timber.run.options import RunOptions
-from yade_timber.study.driver import Task, run_missing
-from yade_timber.study.options import (Parser, add_driver_options, non_negative, positive, record, results_folder,
+from timber_houses.api.result import load_run
+from yade_timber.atomic_write import write_text
+from timber_houses.base.table import csv_text
+from timber_houses.run.options import RunOptions
+from timber_houses.study.driver import Task, run_missing
+from timber_houses.study.options import (Parser, add_driver_options, non_negative, positive, record, results_folder,
                                        run_script)
 
 GRADE, LEVEL, RULE = 1.5, "design", "law"

@@ -4,10 +4,10 @@ import numpy as np
 from shear_model import SlipSpring, Storey, slip_spring
 from wall_spring import WallSpring
 
-from yade_timber.base.gravity import mass_of
-from yade_timber.base.joint_kinds import WALL_BEAM
-from yade_timber.house.walls import SHARE
-from yade_timber.house.weight import weigh
+from timber_houses.base.gravity import mass_of
+from timber_houses.base.joint_kinds import WALL_BEAM
+from timber_houses.house.walls import SHARE
+from timber_houses.house.weight import weigh
 
 AXES = {"ew": 0, "ns": 1}
 ROUNDING = 0.1

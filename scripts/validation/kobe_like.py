@@ -16,8 +16,8 @@ import numpy as np
 
 sys.path.append(str(Path(__file__).resolve().parents[2] / "py"))
 
-from yade_timber.motion import GroundMotion, measures, write_csv
-from yade_timber.study.options import Parser, run_script, seed
+from timber_houses.motion import GroundMotion, measures, write_csv
+from timber_houses.study.options import Parser, run_script, seed
 
 DT, DURATION = 0.01, 20.0
 """[s]"""

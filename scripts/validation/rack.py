@@ -11,7 +11,8 @@ import numpy as np
 import yade.wrapper as yw
 from yade import O
 from yade.minieigenHP import Quaternion, Vector3
-from yade_timber.scene import engines, scenario
+from timber_houses.scene import scenario
+from yade_timber.scene import engines
 
 HOUSE = """\
 extends: base

@@ -18,14 +18,14 @@ import numpy as np
 
 sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a script without setting __file__
 
-import yade_timber as yt
+import timber_houses as th
 from shear_model import Storey, first_period, slip_spring
-from yade_timber.base.atomic_write import write_text
-from yade_timber.base.gravity import mass_of
-from yade_timber.base.table import csv_text
-from yade_timber.house.parser import house_text
-from yade_timber.house.weight import weigh
-from yade_timber.study.options import Parser, results_folder, run_script
+from yade_timber.atomic_write import write_text
+from timber_houses.base.gravity import mass_of
+from timber_houses.base.table import csv_text
+from timber_houses.house.parser import house_text
+from timber_houses.house.weight import weigh
+from timber_houses.study.options import Parser, results_folder, run_script
 
 STATED = 0.30
 """Period for the damping of PB3D. [s]"""
@@ -109,7 +109,7 @@ def house_of_masses(ends, path):
     densities = np.full(3, 340.0)
     for _ in range(3):  # the masses are linear in the densities; the last round checks them
         write_text(path, house_text(house(ends, densities.tolist())))
-        built = yt.house(path)
+        built = th.house(path)
         levels = weigh(built.model())["storeys"]["main"]
         masses = np.array([mass_of(levels[str(k)]["level_kn"]) for k in (1, 2, 3)])
         slab = np.array([sum(e.volume for e in built.model().elements if e.material == f"slab{k}") for k in range(3)])
@@ -122,7 +122,7 @@ def package_periods(ends, folder):
     """First period of each direction in the package. [s]"""
     name = f"ubc3s_{ends.split()[-1]}"
     built = house_of_masses(ends, folder / f"{name}.yaml")
-    run = yt.run(built, duration=SETTLING, dt=DT, out=folder / name, no_frames=True, quiet=True)
+    run = th.run(built, duration=SETTLING, dt=DT, out=folder / name, no_frames=True, quiet=True)
     modes = run.summary.quantities.modes.before.modes
     return {d: max(mode.period_s for mode in modes if mode.direction == d) for d in WALLS}
 

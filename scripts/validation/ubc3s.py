@@ -15,12 +15,12 @@ from pathlib import Path
 
 import numpy as np
 
-import yade_timber as yt
+import timber_houses as th
 from yade import O
-from yade_timber.base.atomic_write import write_text
-from yade_timber.base.table import csv_text
-from yade_timber.scene import scenario
-from yade_timber.study.options import Parser, results_folder, run_script
+from yade_timber.atomic_write import write_text
+from timber_houses.base.table import csv_text
+from timber_houses.scene import scenario
+from timber_houses.study.options import Parser, results_folder, run_script
 
 START, END, QUIET = 4.0, 30.0, 3.0
 """[s]"""
@@ -36,7 +36,7 @@ REFERENCE = Path(sys.argv[0]).resolve().parents[2] / "docs" / "validation" / "ub
 
 def motion_of(record):
     """The part of a record that the reference has, without its vertical component."""
-    motion = yt.motion(record, start=START, end=END)
+    motion = th.motion(record, start=START, end=END)
     return dataclasses.replace(motion, acceleration=motion.acceleration * (1, 1, 0))
 
 

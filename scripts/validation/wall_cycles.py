@@ -20,10 +20,10 @@ import numpy as np
 sys.path.append(str(Path(sys.argv[0]).resolve().parent))  # YADE runs a script without setting __file__
 
 from rack import Rack
-from yade_timber.base.atomic_write import write_text, written_whole
-from yade_timber.base.table import csv_text
-from yade_timber.house import load_house
-from yade_timber.study.options import Parser, results_folder, run_script
+from yade_timber.atomic_write import write_text, written_whole
+from timber_houses.base.table import csv_text
+from timber_houses.house import load_house
+from timber_houses.study.options import Parser, results_folder, run_script
 
 TYPES = ("plywood", "mud", "mortar", "gypsum", "lath_plaster", "siding")
 KEYS = ("multiplier", "envelope", "residual_share")

@@ -9,10 +9,10 @@ label  the quantity of grade 2 (1.25) or 3 (1.5) of the housing performance labe
 """
 from house_storeys import AXES, wall_joints
 
-from yade_timber.base.atomic_write import write_text
-from yade_timber.house import build_house, changed_house, load_house
-from yade_timber.house.parser import house_text
-from yade_timber.house.weight import floor_area
+from yade_timber.atomic_write import write_text
+from timber_houses.house import build_house, changed_house, load_house
+from timber_houses.house.parser import house_text
+from timber_houses.house.weight import floor_area
 
 HOUSE, STRUCTURE, MODULE = "tiled_house", "main", 0.91
 """The plan, its structure, and its module [m]."""

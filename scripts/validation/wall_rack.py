@@ -22,9 +22,9 @@ sys.path.append(str(Path(sys.argv[0]).resolve().parent))  # YADE runs a script w
 from evaluation import evaluate
 from measured_walls import HEIGHT, WALLS
 from rack import Rack, envelope
-from yade_timber.base.atomic_write import write_text, written_whole
-from yade_timber.base.table import csv_text
-from yade_timber.study.options import Parser, results_folder, run_script
+from yade_timber.atomic_write import write_text, written_whole
+from timber_houses.base.table import csv_text
+from timber_houses.study.options import Parser, results_folder, run_script
 
 MODELS = {"points": "#0072B2", "mean": "#009E73", "design": "#D55E00"}
 HEADS = ("wall", "case", "tests", "multiplier", "P at the code's drift [kN]", "code's drift", "Py [kN]", "Pu [kN]",

@@ -12,9 +12,9 @@ import yade.config
 import yade_timber as yt
 from compare import assert_close
 from yade import O
-from yade_timber.scene import scenario
+from timber_houses.scene import scenario
 from yade_timber.scene.engines import find_engine
-from yade_timber.motion import GroundMotion, default_motion
+from timber_houses.motion import GroundMotion, default_motion
 
 GOLDEN = Path(__file__).with_suffix(".json")
 STRONG = 17.6  # [s] of the default motion

@@ -13,8 +13,9 @@ from rows import Registry, Row
 from scipy.optimize import brentq
 from undamped import undamp
 from yade.minieigenHP import Vector3
-from yade_timber.base.time_step import DEFAULT_DT
-from yade_timber.scene import engines, scenario
+from timber_houses.base.time_step import DEFAULT_DT
+from timber_houses.scene import scenario
+from yade_timber.scene import engines
 
 case = Registry()
 O = yw.Omega()

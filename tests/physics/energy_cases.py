@@ -10,9 +10,10 @@ import yade_timber as yt
 from planar_scene import build_frame, recorded
 from rows import Registry, Row, observed_order
 from yade.minieigenHP import Vector3
-from yade_timber import motion
-from yade_timber.base.time_step import DEFAULT_DT
-from yade_timber.scene import engines, scenario
+from timber_houses import motion
+from timber_houses.base.time_step import DEFAULT_DT
+from timber_houses.scene import scenario
+from yade_timber.scene import engines
 
 case = Registry()
 O = yw.Omega()

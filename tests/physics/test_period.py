@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 from yade import O
-from yade_timber.scene import bodies, scenario
+from timber_houses.scene import scenario
+from yade_timber.scene import bodies
 
 AXES = {"ew": 0, "ns": 1}
 SPEED, SETTLING, EVERY, SAMPLES = 0.03, 2000, 16, 250

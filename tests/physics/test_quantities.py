@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 import yade.wrapper as yw
 import yade_timber as yt
-from yade_timber.motion import GroundMotion
-from yade_timber.recording.frames import Motion
-from yade_timber.recording.quantities import storeys
-from yade_timber.scene.modes import SLOWEST, natural_modes
+from timber_houses.motion import GroundMotion
+from timber_houses.recording.frames import Motion
+from timber_houses.recording.quantities import storeys
+from timber_houses.scene.modes import SLOWEST, natural_modes
 
 O = yw.Omega()
 KN, KS = 58800.0, 40000.0

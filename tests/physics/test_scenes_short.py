@@ -15,7 +15,7 @@ import yade_timber as yt
 from scene_judge import Plan
 from true_overlap import Core, overlap
 from yade import O
-from yade_timber.base.time_step import DEFAULT_DT
+from timber_houses.base.time_step import DEFAULT_DT
 
 SCENES = [("post", 0), ("wall", 1), ("slope", 0), ("keystone", 5), ("hammer", 0), ("slip_chain", 2)]
 

@@ -4,7 +4,8 @@ import pytest
 import yade_timber as yt
 from compare import assert_close
 from yade import O
-from yade_timber.scene import engines, scenario
+from timber_houses.scene import scenario
+from yade_timber.scene import engines
 
 SETTLING = 1.0
 """Simulated time. [s]"""

@@ -3,7 +3,7 @@
 import pytest
 import yade.wrapper as yw
 import yade_timber as yt
-from yade_timber.run.summary import CREATED, created_energy
+from timber_houses.run.summary import CREATED, created_energy
 from yade_timber.scene import queries
 from yade_timber.scene.engines import find_engine
 

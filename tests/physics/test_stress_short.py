@@ -12,7 +12,7 @@ from extreme_runs import single_precision
 from random_pairs import expect_sound, impacts
 import yade.wrapper as yw
 from yade import O
-from yade_timber.base.time_step import MAX_DT
+from timber_houses.base.time_step import MAX_DT
 from yade_timber.scene.engines import find_engine
 
 

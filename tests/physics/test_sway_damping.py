@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 import yade_timber as yt
 from yade import O
-from yade_timber.base.joint_kinds import WALL_KINDS
-from yade_timber.house.parser import house_text
-from yade_timber.scene import scenario, sway
+from timber_houses.base.joint_kinds import WALL_KINDS
+from timber_houses.house.parser import house_text
+from timber_houses.scene import scenario, sway
 
 DRIFT = 4e-5
 """Of the top over its height, at the start [rad]: 0.1 mm a storey. Friction in loosely loaded contacts adds 0.002 to

@@ -19,11 +19,11 @@ import numpy as np
 import yade.wrapper as yw
 import yade_timber as yt
 from overlap_watch import Overlaps
-from yade_timber.house.loader import shipped_houses
-from yade_timber.motion import default_motion, synthetic_motion
-from yade_timber.motion.processing import trim
-from yade_timber.run.summary import created_energy
-from yade_timber.scene import scenario
+from timber_houses.house.loader import shipped_houses
+from timber_houses.motion import default_motion, synthetic_motion
+from timber_houses.motion.processing import trim
+from timber_houses.run.summary import created_energy
+from timber_houses.scene import scenario
 from yade_timber.scene.engines import find_engine
 
 O = yw.Omega()

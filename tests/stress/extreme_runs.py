@@ -3,10 +3,11 @@
 import numpy as np
 import yade.wrapper as yw
 import yade_timber as yt
-from yade_timber.base.time_step import DEFAULT_DT
-from yade_timber.house import build_house, load_house
-from yade_timber.motion import GroundMotion, default_motion
-from yade_timber.scene import engines, scenario
+from timber_houses.base.time_step import DEFAULT_DT
+from timber_houses.house import build_house, load_house
+from timber_houses.motion import GroundMotion, default_motion
+from timber_houses.scene import scenario
+from yade_timber.scene import engines
 
 O = yw.Omega()
 

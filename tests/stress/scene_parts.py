@@ -3,8 +3,8 @@
 import numpy as np
 import yade.wrapper as yw
 import yade_timber as yt
-from yade_timber.base.time_step import DEFAULT_DT
-from yade_timber.motion import GroundMotion
+from timber_houses.base.time_step import DEFAULT_DT
+from timber_houses.motion import GroundMotion
 
 O = yw.Omega()
 

@@ -6,7 +6,8 @@ import numpy as np
 import yade.wrapper as yw
 import yade_timber as yt
 from undamped import undamp
-from yade_timber.scene import engines, scenario
+from timber_houses.scene import scenario
+from yade_timber.scene import engines
 
 O = yw.Omega()
 

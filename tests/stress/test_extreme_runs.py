@@ -9,7 +9,7 @@ import yade_timber as yt
 from compare import assert_close
 from extreme_runs import expect_sound, float32_house, rough_record, shaken, single_precision, strong_part
 from yade import O
-from yade_timber.base.time_step import MAX_DT
+from timber_houses.base.time_step import MAX_DT
 from yade_timber.scene import engines
 
 

@@ -9,7 +9,7 @@ import yade_timber as yt
 from assembly_cases import DT, load_on_fixed, stack_at_rest, weight
 from planar_scene import advance, positions
 from rows import Row, check
-from yade_timber.scene import scenario
+from timber_houses.scene import scenario
 
 
 def test_stack():

@@ -2,9 +2,9 @@
 """A small run as recorded, made of formulas: four columns with a roof that sway, then fall to the north."""
 import numpy as np
 from summaries import sample_summary
-from yade_timber.recording import frames
-from yade_timber.recording.events import Collapse, Event, FirstBreak, Tilt
-from yade_timber.recording.history import History
+from timber_houses.recording import frames
+from timber_houses.recording.events import Collapse, Event, FirstBreak, Tilt
+from timber_houses.recording.history import History
 
 FACES = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
 FALL = 2.0

@@ -4,7 +4,7 @@ import browser
 import frames_sample
 import pytest
 from player_page import at_rest
-from yade_timber.pictures import player
+from timber_houses.pictures import player
 
 
 @pytest.fixture(scope="module")

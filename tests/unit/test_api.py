@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""`yt.run` in a YADE session: several runs, the same results as the script's, refusals, an interruption, results as an
+"""`th.run` in a YADE session: several runs, the same results as the script's, refusals, an interruption, results as an
 object.
 """
 import pydoc
@@ -12,11 +12,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import timber_houses as th
 import yade_timber as yt
 from yade import O
-from yade_timber.base.errors import RunError
-from yade_timber.motion import GroundMotion
-from yade_timber.run.runner import Run
+from timber_houses.base.errors import RunError
+from timber_houses.motion import GroundMotion
+from timber_houses.run.runner import Run
 
 HOUSE_SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "house.py"
 SHORT = {"duration": 0.3, "dt": 2e-4, "quiet": True, "no_frames": True}
@@ -28,11 +29,11 @@ def own_folder(tmp_path, monkeypatch):
 
 
 def test_runs_one_after_the_other_have_folders_of_their_own():
-    house = yt.house("A")
-    first = yt.run(house, motion="shipped", **SHORT)
+    house = th.house("A")
+    first = th.run(house, motion="shipped", **SHORT)
     with pytest.raises(RunError):
-        yt.run(house, dt=1)  # takes no folder
-    second = yt.run(house, motion="shipped", snow=0.5, **SHORT)
+        th.run(house, dt=1)  # takes no folder
+    second = th.run(house, motion="shipped", snow=0.5, **SHORT)
     assert (first.folder.name, second.folder.name) == ("A", "A_2")
     assert first.summary.snow_mass_kg == 0 < second.summary.snow_mass_kg
     assert first.drift != second.drift
@@ -45,14 +46,14 @@ def test_the_script_gives_the_same_result():
     ]
     subprocess.run(["yade", "-n", "-x", HOUSE_SCRIPT, "A", *options], check=True, capture_output=True,
                    stdin=subprocess.DEVNULL)
-    yt.run("B", **{**SHORT, "duration": 0.01})
-    for motion in ("shipped", yt.motion("shipped")):
-        run = yt.run("A", motion=motion, scale=2, **SHORT)
-        assert np.array_equal(run.history.rows, yt.load_run("script").history.rows)
+    th.run("B", **{**SHORT, "duration": 0.01})
+    for motion in ("shipped", th.motion("shipped")):
+        run = th.run("A", motion=motion, scale=2, **SHORT)
+        assert np.array_equal(run.history.rows, th.load_run("script").history.rows)
 
 
 def test_numbers_of_a_run():
-    run = yt.run("A", motion="shipped", **SHORT)
+    run = th.run("A", motion="shipped", **SHORT)
     assert run.drift == max(value for storey in run.drifts.values() for value in storey.values() if value is not None)
     assert (run.broken, run.collapsed, run.collapse_time, run.events, run.breaks) == (0, False, None, [], [])
     assert run.energy is run.summary.energy and run.energy.input > 0
@@ -79,7 +80,7 @@ def test_numbers_of_a_run():
 )
 def test_wrong_options_are_refused_in_a_line(error, words, options):
     with pytest.raises(error) as refusal:
-        yt.run("A", **options)
+        th.run("A", **options)
     assert words in str(refusal.value) and "\n" not in str(refusal.value)
 
 
@@ -94,17 +95,17 @@ def test_interrupted_run_continues(monkeypatch):
     options = {**SHORT, "duration": 2, "every_step": True, "out": "stopped"}
     with monkeypatch.context() as patch, pytest.raises(KeyboardInterrupt, match="resume=True"):
         patch.setattr(Run, "advance", interrupted)
-        yt.run("A", **options)
+        th.run("A", **options)
     assert signal.getsignal(signal.SIGINT) is before
     reached = O.time
     assert reached == pytest.approx(0.05)  # one frame
-    assert yt.run("A", **{**options, "duration": reached + 0.1, "resume": True}).summary.duration_s == pytest.approx(
+    assert th.run("A", **{**options, "duration": reached + 0.1, "resume": True}).summary.duration_s == pytest.approx(
         reached + 0.1, abs=2e-4)
 
 
 def test_player_and_pictures():
-    run = yt.run("A", motion="shipped", **{**SHORT, "no_frames": False})
-    other = yt.run("B", motion="shipped", **{**SHORT, "no_frames": False})
+    run = th.run("A", motion="shipped", **{**SHORT, "no_frames": False})
+    other = th.run("B", motion="shipped", **{**SHORT, "no_frames": False})
     assert run.player() == run.folder / "player.html" and run.player().stat().st_size > 1e5
     assert run.player(other) == run.folder / "compare_with_B.html"
     assert len(run.frames.time) == 7 and len(repr(run.frames)) < 300
@@ -113,16 +114,17 @@ def test_player_and_pictures():
 
 def test_names_outside_yade():
     """A plain Python has houses, motions and finished runs, and says what it lacks."""
-    code = ("import yade_timber as yt\nfor name in ('box', 'nothing'):\n    try:\n        getattr(yt, name)\n"
-            "    except AttributeError as problem:\n        print(problem)\nyt.run('A')")
+    code = ("import yade_timber as yt, timber_houses as th\nfor name in ('box', 'nothing'):\n    try:\n"
+            "        getattr(yt, name)\n    except AttributeError as problem:\n        print(problem)\nth.run('A')")
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert "yade_timber.box needs YADE" in done.stdout and "no attribute 'nothing'" in done.stdout
     assert done.stderr.splitlines()[-1].endswith("or call it in a YADE session") and done.returncode == 1
 
 
 def test_every_name_is_there():
-    """Those of `yt.<tab>` are public; the help names all but the classes of YADE, on one screen."""
-    assert [name for name in dir(yt) if not hasattr(yt, name) or name.startswith("_")] == []
-    assert {"run", "box", "TimberMat"} <= set(dir(yt)) and not {"host", "scene", "plugin", "compiled"} & set(dir(yt))
-    screen = pydoc.plaintext.document(yt)
-    assert screen.count("\n") < 50 and {*yt.EVERYWHERE, *yt.IN_YADE} <= set(re.findall(r"\w+", screen))
+    """Those of `yt.<tab>` and `th.<tab>` are public; the help names all but the classes of YADE, on one screen."""
+    for package, names in ((yt, {*yt.IN_YADE}), (th, {*dir(th)})):
+        assert [name for name in dir(package) if not hasattr(package, name) or name.startswith("_")] == []
+        screen = pydoc.plaintext.document(package)
+        assert screen.count("\n") < 50 and names <= set(re.findall(r"\w+", screen)) and names <= {*dir(package)}
+    assert "TimberMat" in dir(yt) and not {"host", "scene", "plugin", "compiled"} & set(dir(yt))

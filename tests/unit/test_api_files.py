@@ -13,30 +13,31 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
+import timber_houses as th
 import yade_timber as yt
 import frames_sample
 from summaries import sample_summary
-from yade_timber.base.errors import InputError
-from yade_timber.house import build_house, load_house
+from timber_houses.base.errors import InputError
+from timber_houses.house import build_house, load_house
 
 
 def test_packages_are_called_and_still_packages():
-    assert yt.house("A").name == "A" and yt.house.load_house is load_house
-    assert importlib.import_module("yade_timber.run.identity").__name__ == "yade_timber.run.identity"
-    assert list(inspect.signature(yt.run).parameters) == ["house", "motion", "snow", "duration", "out", "options"]
-    assert "Parameters" in yt.run.__doc__ and "Parameters" in yt.house.__doc__
+    assert th.house("A").name == "A" and th.house.load_house is load_house
+    assert importlib.import_module("timber_houses.run.identity").__name__ == "timber_houses.run.identity"
+    assert list(inspect.signature(th.run).parameters) == ["house", "motion", "snow", "duration", "out", "options"]
+    assert "Parameters" in th.run.__doc__ and "Parameters" in th.house.__doc__
 
 
 def test_house_of_a_name_a_file_and_a_house(tmp_path):
-    shutil.copy(yt.house("storehouse").path, tmp_path / "mine.yaml")
-    for given in ("C2", yt.house("C2")):
-        assert yt.house(given).counts()["joints"] == 382
-    assert yt.house(tmp_path / "mine.yaml").counts() == yt.house("storehouse").counts()
-    assert yt.house("A").counts(snow=1.0)["mass_snow"] > 0 == yt.house("A").counts(snow=0)["mass_snow"]
+    shutil.copy(th.house("storehouse").path, tmp_path / "mine.yaml")
+    for given in ("C2", th.house("C2")):
+        assert th.house(given).counts()["joints"] == 382
+    assert th.house(tmp_path / "mine.yaml").counts() == th.house("storehouse").counts()
+    assert th.house("A").counts(snow=1.0)["mass_snow"] > 0 == th.house("A").counts(snow=0)["mass_snow"]
 
 
 def test_variant_of_a_house(tmp_path):
-    house = yt.house("B")
+    house = th.house("B")
     more = house.variant(tmp_path / "more.yaml", braces=house.free_bays[:2], strength=1.5)
     assert more.name == "more" and more.counts()["braces"] == house.counts()["braces"] + 2
     strongest = [
@@ -46,42 +47,42 @@ def test_variant_of_a_house(tmp_path):
 
 
 def test_a_variant_may_be_named_like_a_number(tmp_path):
-    assert yt.house("A").variant(tmp_path / "1e3.yaml").name == "1e3"
+    assert th.house("A").variant(tmp_path / "1e3.yaml").name == "1e3"
 
 
 def test_a_variant_may_be_named_like_a_shipped_house(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    assert yt.house("B").variant("B", strength=2).path == tmp_path / "B"
+    assert th.house("B").variant("B", strength=2).path == tmp_path / "B"
 
 
 def test_drawing(tmp_path):
-    assert (tmp_path / "b.png") in yt.house("B").draw(tmp_path / "b.png")
+    assert (tmp_path / "b.png") in th.house("B").draw(tmp_path / "b.png")
 
 
 def test_motions():
-    motion = yt.motion("shipped", scale=0.5)
-    assert motion.pga_gal["ns"] == pytest.approx(0.5 * yt.motion().pga_gal["ns"])
-    assert yt.motion(motion, azimuth=90).pga_gal["ew"] == pytest.approx(motion.pga_gal["ns"])
-    assert yt.motion(motion, pga=300).pga_gal["ew"] == pytest.approx(
+    motion = th.motion("shipped", scale=0.5)
+    assert motion.pga_gal["ns"] == pytest.approx(0.5 * th.motion().pga_gal["ns"])
+    assert th.motion(motion, azimuth=90).pga_gal["ew"] == pytest.approx(motion.pga_gal["ns"])
+    assert th.motion(motion, pga=300).pga_gal["ew"] == pytest.approx(
         300)  # the smaller of the horizontal peaks is 300 gal at level
 
 
 @pytest.mark.parametrize(
     "call, words",
     [
-        (lambda: yt.house("D"), "unknown house 'D'"),
-        (lambda: yt.house("c2"), "did you mean 'C2'?"),
-        (lambda: yt.house(3), "unknown house '3'"),
-        (lambda: yt.house("B").variant("/nowhere/x.yaml"), "cannot be written"),
-        (lambda: yt.house("B").variant("x.yaml", settings=["snow=1=2"]), "snow"),
-        (lambda: yt.house("B").draw("/nowhere/x.png"), "cannot be written"),
-        (lambda: yt.motion("nowhere"), "no such file"),
-        (lambda: yt.motion(scale=-1), "motion: scale -1"),
-        (lambda: yt.motion(scale="2"), "motion: scale '2': must be a number"),
-        (lambda: yt.motion(scales=2), "did you mean 'scale'"),
-        (lambda: yt.motion(7), "motion 7: must be"),
-        (lambda: yt.motion(yt.motion(), seed=3), "leave one of them out"),
-        (lambda: yt.load_run("/nowhere"), "no finished run"),
+        (lambda: th.house("D"), "unknown house 'D'"),
+        (lambda: th.house("c2"), "did you mean 'C2'?"),
+        (lambda: th.house(3), "unknown house '3'"),
+        (lambda: th.house("B").variant("/nowhere/x.yaml"), "cannot be written"),
+        (lambda: th.house("B").variant("x.yaml", settings=["snow=1=2"]), "snow"),
+        (lambda: th.house("B").draw("/nowhere/x.png"), "cannot be written"),
+        (lambda: th.motion("nowhere"), "no such file"),
+        (lambda: th.motion(scale=-1), "motion: scale -1"),
+        (lambda: th.motion(scale="2"), "motion: scale '2': must be a number"),
+        (lambda: th.motion(scales=2), "did you mean 'scale'"),
+        (lambda: th.motion(7), "motion 7: must be"),
+        (lambda: th.motion(th.motion(), seed=3), "leave one of them out"),
+        (lambda: th.load_run("/nowhere"), "no finished run"),
     ],
 )
 def test_refusals_are_one_line(call, words):
@@ -94,12 +95,12 @@ def test_damaged_summary(tmp_path):
     for text in ("", "[]", "{}", '{"model": 3}'):
         (tmp_path / "summary.json").write_text(text)
         with pytest.raises(InputError, match="cannot be read as the summary"):
-            yt.load_run(tmp_path)
+            th.load_run(tmp_path)
 
 
 def test_directions_of_a_summary_are_attributes(tmp_path):
     sample_summary(quantities={"base_shear": {"sustained": {"ns": 5.0, "ew": 6.0}}}).write(tmp_path)
-    shear = yt.load_run(tmp_path).summary.quantities.base_shear
+    shear = th.load_run(tmp_path).summary.quantities.base_shear
     assert (shear.sustained.ns, shear.sustained.ew) == (5.0, 6.0) and shear.sustained == {"ns": 5.0, "ew": 6.0}
     with pytest.raises(AttributeError, match="there are ns, ew"):
         shear.sustained.north
@@ -108,7 +109,7 @@ def test_directions_of_a_summary_are_attributes(tmp_path):
 def test_representations_are_short():
     model = build_house(load_house("C2"))
     frames = frames_sample.run()
-    shown = (yt.house("C2"), yt.motion(), load_house("C2"), model, model.elements[0], model.joints[0], frames,
+    shown = (th.house("C2"), th.motion(), load_house("C2"), model, model.elements[0], model.joints[0], frames,
              frames.elements, frames.joints, frames.history)
     assert [type(value).__name__ for value in shown if len(repr(value)) > 300] == []
 

@@ -6,10 +6,10 @@ import os
 import numpy as np
 import pytest
 from small_frames import frames
-from yade_timber.base.errors import RunError
-from yade_timber.recording import append_log, frame_log
-from yade_timber.recording import frames as files
-from yade_timber.recording.append_log import AppendLog
+from timber_houses.base.errors import RunError
+from timber_houses.recording import append_log, frame_log
+from timber_houses.recording import frames as files
+from timber_houses.recording.append_log import AppendLog
 
 SAMPLES = [(b"H", 0.0, b"ab"), (b"M", 0.0, b""), (b"H", 0.5, b"cde"), (b"H", 1.0, b"f" * 20)]
 

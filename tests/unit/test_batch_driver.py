@@ -17,9 +17,9 @@ import pytest
 
 sys.path.append(str(Path(__file__).resolve().parents[2] / "py"))
 
-from yade_timber.base.lock import LOCK, is_locked, locked
-from yade_timber.study.batch import read_table
-from yade_timber.study.driver import DRIVER
+from timber_houses.base.lock import LOCK, is_locked, locked
+from timber_houses.study.batch import read_table
+from timber_houses.study.driver import DRIVER
 
 SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
 TABLE = """house  description  snow  set                                dt    duration

@@ -13,12 +13,12 @@ import pytest
 sys.path.append(str(Path(__file__).resolve().parents[2] / "py"))
 
 from summaries import sample_summary
-from yade_timber.base.errors import RunError
-from yade_timber.recording.events import Event, StructureFallen, Tilt
-from yade_timber.study.batch import BatchError, read_table, write_runs
-from yade_timber.study.batch.collect import RESULTS
-from yade_timber.study.batch.tasks import task_of
-from yade_timber.run.identity import made_from
+from timber_houses.base.errors import RunError
+from timber_houses.recording.events import Event, StructureFallen, Tilt
+from timber_houses.study.batch import BatchError, read_table, write_runs
+from timber_houses.study.batch.collect import RESULTS
+from timber_houses.study.batch.tasks import task_of
+from timber_houses.run.identity import made_from
 
 TABLE = """# comment
 house  description!  scale  !THREADS  snow   # of the roof

@@ -8,10 +8,10 @@ import pytest
 
 sys.path.append(str(Path(__file__).resolve().parents[2] / "py"))
 
-from yade_timber.house import load_house
-from yade_timber.run.options import RunOptions
-from yade_timber.study.batch import BatchError, check_rows, read_table
-from yade_timber.study.batch.tasks import task_of
+from timber_houses.house import load_house
+from timber_houses.run.options import RunOptions
+from timber_houses.study.batch import BatchError, check_rows, read_table
+from timber_houses.study.batch.tasks import task_of
 
 
 @pytest.fixture

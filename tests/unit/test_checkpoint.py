@@ -10,13 +10,14 @@ import numpy as np
 import pytest
 import yade.system as system
 import yade.wrapper as yw
+import yade_timber
 from file_limit import file_limit
-from yade_timber.base.errors import RunError
-from yade_timber.base.options import options
-from yade_timber.run import checkpoint
-from yade_timber.run import identity as identities
-from yade_timber.run.options import RunOptions
-from yade_timber.motion import GroundMotion
+from timber_houses.base.errors import RunError
+from timber_houses.base.options import options
+from timber_houses.run import checkpoint
+from timber_houses.run import identity as identities
+from timber_houses.run.options import RunOptions
+from timber_houses.motion import GroundMotion
 
 O = yw.Omega()
 SHOVE = GroundMotion(0.01, np.ones((9, 3)), "shove")
@@ -87,10 +88,11 @@ def test_another_package(monkeypatch):
 
 @pytest.fixture(scope="module")
 def package(tmp_path_factory):
-    """A copy of the package's folder."""
-    folder = tmp_path_factory.mktemp("package") / "yade_timber"
-    shutil.copytree(
-        Path(identities.__file__).resolve().parents[1], folder, ignore=shutil.ignore_patterns("__pycache__"))
+    """A copy of the application's folder, with the plugin's in it."""
+    folder = tmp_path_factory.mktemp("package") / "timber_houses"
+    for source, copy in ((Path(identities.__file__).resolve().parents[1], folder),
+                         (Path(yade_timber.__path__[0]), folder / "plugin")):
+        shutil.copytree(source, copy, ignore=shutil.ignore_patterns("__pycache__", "*.so"))
     return folder
 
 
@@ -103,7 +105,8 @@ def package(tmp_path_factory):
         ("data/player/page.css", False),
         ("study/driver.py", False),
         ("text/english.py", False),
-        ("scene/engines.py", True),
+        ("plugin/scene/engines.py", True),
+        ("plugin/joint_values.py", True),
         ("scene/scenario.py", True),
         ("run/runner.py", True),
         ("run/summary.py", True),
@@ -116,10 +119,11 @@ def package(tmp_path_factory):
 )
 def test_files_that_decide_results(package, name, decides):
     """A changed file changes the fingerprint of the package if, and only if, it decides results."""
-    before = identities.of_files(identities.decisive_files(package))
+    folder = package / "plugin" if name.startswith("plugin") else package
+    before = identities.of_files(identities.decisive_files(folder))
     with open(package / name, "a") as file:
         file.write("\n# changed\n")
-    assert (identities.of_files(identities.decisive_files(package)) != before) is decides
+    assert (identities.of_files(identities.decisive_files(folder)) != before) is decides
 
 
 def test_another_users_checkpoint_is_not_loaded(tmp_path, monkeypatch):
@@ -180,7 +184,7 @@ def test_a_writer_that_fails_leaves_the_earlier_checkpoint(tmp_path, monkeypatch
     def full(*_):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("yade_timber.base.atomic_write.shutil.copyfileobj", full)
+    monkeypatch.setattr("yade_timber.atomic_write.shutil.copyfileobj", full)
     with pytest.raises(OSError, match="No space"):
         checkpoint.save(tmp_path / "a.yade", {"name": "x"}, {})
     assert [path.name for path in tmp_path.iterdir()] == ["a.yade"] and (tmp_path / "a.yade").read_bytes() == before

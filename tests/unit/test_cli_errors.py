@@ -5,15 +5,15 @@ import re
 
 import numpy as np
 import pytest
-from yade_timber.run import cli
-from yade_timber.run.options import QUIET_DURATION, RunOptions
-from yade_timber.run.plan import planned
-from yade_timber.base.options import BY_SCRIPT, command_option, options
-from yade_timber.base.errors import RunError
-from yade_timber.base.time_step import MAX_DT, MAX_DURATION, MIN_DT
-from yade_timber.motion import GroundMotion, MotionRequest, pga, write_csv
-from yade_timber.api.script import main
-from yade_timber.study.ensemble.runs import tasks
+from timber_houses.run import cli
+from timber_houses.run.options import QUIET_DURATION, RunOptions
+from timber_houses.run.plan import planned
+from timber_houses.base.options import BY_SCRIPT, command_option, options
+from timber_houses.base.errors import RunError
+from timber_houses.base.time_step import MAX_DT, MAX_DURATION, MIN_DT
+from timber_houses.motion import GroundMotion, MotionRequest, pga, write_csv
+from timber_houses.api import script
+from timber_houses.study.ensemble.runs import tasks
 
 
 @pytest.fixture
@@ -25,14 +25,14 @@ def record(tmp_path):
 
 
 @pytest.fixture
-def refused(tmp_path, capsys):
+def refused(tmp_path, capsys, monkeypatch):
     """Call a script with options; returns its line on standard error."""
 
     def call(*options, house="C2", out=tmp_path / "out", earthquake=True):
         with pytest.raises(SystemExit) as stop:
-            main(house, earthquake=earthquake,
-                 argv=["scripts/modelC2_quake.py", "--duration", "0.001", "--out",
-                       str(out), *map(str, options)])
+            monkeypatch.setitem(script.PAPER_RUNS, "modelC2_quake", (house, earthquake, False))
+            script.main("modelC2_quake", ["scripts/modelC2_quake.py", "--duration", "0.001", "--out", str(out),
+                                          *map(str, options)])
         said = capsys.readouterr()
         assert stop.value.code == 1
         assert said.err.startswith("error: ") and said.err.count("\n") == 1, said.err

@@ -8,8 +8,8 @@ import yade_timber as yt
 from summaries import sample_summary
 from yade import O
 from yade.minieigenHP import Quaternion
-from yade_timber.recording.verdict import REPAIRABLE, UNSAFE, Structure
-from yade_timber.text import english, lines
+from timber_houses.recording.verdict import REPAIRABLE, UNSAFE, Structure
+from timber_houses.text import english, lines
 
 EAST, NORTH = (0, 1, 0), (-1, 0, 0)
 """Axes about which a column leans to the east and to the north."""

@@ -15,7 +15,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
 from summaries import sample_summary
-from yade_timber.motion import (
+from timber_houses.motion import (
     GAL,
     GroundMotion,
     MotionRequest,
@@ -26,9 +26,9 @@ from yade_timber.motion import (
     synthetic_motion,
     trim,
 )
-from yade_timber.motion.record import STANDARD_GRAVITY
-from yade_timber.recording.town import summary as town_summary
-from yade_timber.text.english import record, sentence
+from timber_houses.motion.record import STANDARD_GRAVITY
+from timber_houses.recording.town import summary as town_summary
+from timber_houses.text.english import record, sentence
 
 TIME = np.arange(0, 20, 0.01)
 BURST = 300 * np.sin(3 * np.pi * TIME) * np.exp(-(((TIME - 5) / 2) ** 2))

@@ -7,8 +7,9 @@ import yade.wrapper as yw
 import yade_timber as yt
 from yade import O
 from yade.minieigenHP import Quaternion, Vector3
-from yade_timber.motion import default_motion
-from yade_timber.scene import engines, scenario
+from timber_houses.motion import default_motion
+from timber_houses.scene import scenario
+from yade_timber.scene import engines
 
 
 def unwrap():

@@ -11,6 +11,8 @@ from column_sample import column_on_plate, is_one_line
 from yade import O
 from yade_timber.scene.engines import find_engine
 
+yt.guard()
+
 
 def loop_of(geometry=(), physics=(), law=()):
     return yw.InteractionLoop(list(geometry), list(physics), list(law))

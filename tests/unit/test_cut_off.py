@@ -11,17 +11,17 @@ from summaries import sample_summary
 import yade.wrapper as yw
 import yade_timber as yt
 from yade import O
-from yade_timber.base.errors import InputError, RunError
-from yade_timber.motion import GroundMotion
-from yade_timber.recording import frames
-from yade_timber.recording.summary import Summary
-from yade_timber.run import runner, summary
-from yade_timber.run.options import RunOptions
-from yade_timber.run.plan import planned
-from yade_timber.run.town import TownRun
+from timber_houses.base.errors import InputError, RunError
+from timber_houses.motion import GroundMotion
+from timber_houses.recording import frames
+from timber_houses.recording.summary import Summary
+from timber_houses.run import runner, summary
+from timber_houses.run.options import RunOptions
+from timber_houses.run.plan import planned
+from timber_houses.run.town import TownRun
 from yade_timber.scene.engines import find_engine
-from yade_timber.scene.scenario import Scenario
-from yade_timber.text.english import sentence, unconverged
+from timber_houses.scene.scenario import Scenario
+from timber_houses.text.english import sentence, unconverged
 
 
 def run_with(folder, change):

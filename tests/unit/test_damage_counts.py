@@ -7,13 +7,14 @@ import pytest
 import yade.wrapper as yw
 from yade import O
 from yade.minieigenHP import Quaternion, Vector3
-from yade_timber.motion import GroundMotion, default_motion, onset
-from yade_timber.recording.events import Collapse, ColumnsLost, Tilt
-from yade_timber.recording.summary import Columns
-from yade_timber.run import observer
-from yade_timber.run.progress import Bar, Status
-from yade_timber.run.plan import record
-from yade_timber.scene import engines, scenario
+from timber_houses.motion import GroundMotion, default_motion, onset
+from timber_houses.recording.events import Collapse, ColumnsLost, Tilt
+from timber_houses.recording.summary import Columns
+from timber_houses.run import observer
+from timber_houses.run.progress import Bar, Status
+from timber_houses.run.plan import record
+from timber_houses.scene import scenario
+from yade_timber.scene import engines
 
 
 @pytest.fixture(scope="module")

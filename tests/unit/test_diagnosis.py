@@ -13,8 +13,8 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
 from summaries import sample_summary
-from yade_timber.house import build_house, comparison, diagnose, load_house
-from yade_timber.house.diagnosis import brace_multiplier, eccentricity_factor, is_balanced, judgement
+from timber_houses.house import build_house, comparison, diagnose, load_house
+from timber_houses.house.diagnosis import brace_multiplier, eccentricity_factor, is_balanced, judgement
 
 
 @cache

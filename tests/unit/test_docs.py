@@ -33,7 +33,7 @@ ALL_WORDS = 30_000
 """Of README, CHANGELOG, CONTRIBUTING and docs; research counts apart."""
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 SOURCE = re.compile(r"`((?:\w+/)*[\w.*]+\.(?:[ch]pp|py|yaml|\*))(?:: (\w+))?`")
-SOURCE_ROOTS = (".", "pkg", "py/yade_timber")
+SOURCE_ROOTS = (".", "pkg", "py/yade_timber", "py/timber_houses")
 BLOCK = re.compile(r"(?:^<!-- (?P<note>[^\n]*) -->\n+)?^```(?P<language>\w*)\n(?P<text>.*?)^```$", re.M | re.S)
 WHOLE_REPOSITORY = ("scripts/setup", "ctest --preset default")  # .ci/run executes lines that begin so, on a fresh clone
 OUTPUT = "output.txt"

@@ -7,12 +7,12 @@ import sys
 
 import pytest
 from summaries import sample_summary
-from yade_timber.base.errors import RunError
-from yade_timber.run import identity
-from yade_timber.run.identity import made_from
-from yade_timber.run.options import RunOptions
-from yade_timber.study import driver
-from yade_timber.study.driver import Task, run_missing
+from timber_houses.base.errors import RunError
+from timber_houses.run import identity
+from timber_houses.run.identity import made_from
+from timber_houses.run.options import RunOptions
+from timber_houses.study import driver
+from timber_houses.study.driver import Task, run_missing
 
 
 def fake_script(folder, body):
@@ -23,7 +23,7 @@ def fake_script(folder, body):
 
 WRITES = """import sys
 from summaries import sample_summary
-from yade_timber.run import cli, identity
+from timber_houses.run import cli, identity
 options = cli.read_house(sys.argv)
 sample_summary(scenario=' '.join(sys.argv), made_from=identity.made_from(options)).write(options.folder)
 """

@@ -11,9 +11,9 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from yade_timber.base.atomic_write import write_text
-from yade_timber.base.table import csv_text
-from yade_timber.house import HouseError, load_house, load_town
+from yade_timber.atomic_write import write_text
+from timber_houses.base.table import csv_text
+from timber_houses.house import HouseError, load_house, load_town
 
 ROOT = Path(__file__).resolve().parents[2]
 JAPANESE, BYTES = "結果", os.fsdecode(b"\xff\xfe")

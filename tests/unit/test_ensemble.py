@@ -19,19 +19,19 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.append(str(ROOT / "py"))
 
 from summaries import sample_summary
-from yade_timber.base.errors import RunError
-from yade_timber.house import build_house, load_house
-from yade_timber.house.disturbance import LARGEST, disturb
-from yade_timber.pictures import bands, provenance
-from yade_timber.recording import ensemble, frames
-from yade_timber.recording.history import History
-from yade_timber.recording.summary import Ensemble, Summary
-from yade_timber.run.identity import made_from
-from yade_timber.run.options import RunOptions, scripted
-from yade_timber.study import driver
-from yade_timber.study.ensemble import results, runs, statistics
-from yade_timber.text import japanese
-from yade_timber.text.english import sentence
+from timber_houses.base.errors import RunError
+from timber_houses.house import build_house, load_house
+from timber_houses.house.disturbance import LARGEST, disturb
+from timber_houses.pictures import bands, provenance
+from timber_houses.recording import ensemble, frames
+from timber_houses.recording.history import History
+from timber_houses.recording.summary import Ensemble, Summary
+from timber_houses.run.identity import made_from
+from timber_houses.run.options import RunOptions, scripted
+from timber_houses.study import driver
+from timber_houses.study.ensemble import results, runs, statistics
+from timber_houses.text import japanese
+from timber_houses.text.english import sentence
 
 
 def summary(verdict="unsafe", drift=0.1, falls=None, springs=3, **more):

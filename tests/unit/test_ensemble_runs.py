@@ -15,8 +15,8 @@ import pytest
 
 sys.path.append(str(Path(__file__).resolve().parents[2] / "py"))
 
-from yade_timber.base.lock import is_locked
-from yade_timber.recording.ensemble import histories, read
+from timber_houses.base.lock import is_locked
+from timber_houses.recording.ensemble import histories, read
 
 SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
 SHORT = ("--dt", "4e-4", "--start", "18.5", "--duration", "0.1")

@@ -10,6 +10,8 @@ import yade_timber as yt
 from yade import O
 from yade_timber.scene.engines import find_engine
 
+yt.guard()
+
 SIDE = 0.2
 
 

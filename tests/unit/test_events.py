@@ -7,13 +7,13 @@ import frames_sample
 import numpy as np
 import pytest
 from summaries import sample_summary
-from yade_timber.base.json_types import encode
-from yade_timber.recording.damage import DamageSurvey, Level, State
-from yade_timber.recording.events import ColumnsLost, Event, EventLog, OwnWeight, SnowFallen, StructureFallen
-from yade_timber.recording.summary import Columns, JointCounts, Summary
-from yade_timber.recording.verdict import Structure, passed
-from yade_timber.recording.walls import count_apart
-from yade_timber.text.english import event, joint_place, own_weight, sentence
+from timber_houses.base.json_types import encode
+from timber_houses.recording.damage import DamageSurvey, Level, State
+from timber_houses.recording.events import ColumnsLost, Event, EventLog, OwnWeight, SnowFallen, StructureFallen
+from timber_houses.recording.summary import Columns, JointCounts, Summary
+from timber_houses.recording.verdict import Structure, passed
+from timber_houses.recording.walls import count_apart
+from timber_houses.text.english import event, joint_place, own_weight, sentence
 
 ROOF = list(frames_sample.PARTS).index("roof")
 

@@ -14,10 +14,10 @@ import numpy as np
 import pytest
 from PIL import Image
 from summaries import sample_summary
-from yade_timber.base.errors import RunError
-from yade_timber.house import build_house, load_house
-from yade_timber.pictures import camera, caption, film, fonts, key_times, provenance, stage
-from yade_timber.recording import frames
+from timber_houses.base.errors import RunError
+from timber_houses.house import build_house, load_house
+from timber_houses.pictures import camera, caption, film, fonts, key_times, provenance, stage
+from timber_houses.recording import frames
 
 SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "show" / "make_film.py"
 SMALL = film.Format(width=320, height=180, rate=10)
@@ -225,7 +225,7 @@ def test_a_letter_without_a_font_gives_one_notice(capsys, monkeypatch):
 def test_japanese_names_are_drawn(tmp_path):
     """Ink where a missing letter would leave an empty box, of which matplotlib warns; the PDF embeds TrueType outlines.
     """
-    from yade_timber.pictures import figures, report
+    from timber_houses.pictures import figures, report
 
     def sheet():
         figure = figures.new_figure(4, 2, 100)

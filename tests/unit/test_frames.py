@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from file_limit import file_limit
 from small_frames import CUBE, frames
-from yade_timber.recording import frames as files
-from yade_timber.base.errors import RunError
+from timber_houses.recording import frames as files
+from timber_houses.base.errors import RunError
 
 
 def same(one, other):

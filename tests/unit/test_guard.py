@@ -1,16 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The import guard refuses each kind of wrong host and accepts the right one."""
 import importlib
-import subprocess
 from pathlib import Path
-from types import SimpleNamespace
 
 import pytest
-import yade.remote
-import yade.runtime
 import yade.wrapper
 import yade_timber
-from ports import listening_ports
 from yade_timber import host
 
 MODULE = Path(yade_timber.__path__[0]) / "_yade_timber.so"
@@ -146,40 +141,3 @@ def test_faster_module_that_is_damaged(tmp_path, attempts):
     attempts.complaint = "invalid ELF header"
     with pytest.raises(ImportError, match="ELF"):
         host.import_module("other", tmp_path)
-
-
-def test_servers_are_closed(monkeypatch):
-    """YADE's Python prompt and XML-RPC server; a job of yade-batch keeps the latter."""
-    for thread in host.close_servers():  # those of this process, which the import may still be closing
-        thread.join()
-    yade.remote.runServers()
-    prompt, information = listening_ports()
-    monkeypatch.setenv("PARAM_TABLE", "table:1")
-    for thread in host.close_servers():
-        thread.join()
-    assert 9000 <= prompt < 21000 <= information and listening_ports() == [information]
-    monkeypatch.delenv("PARAM_TABLE")
-    for thread in host.close_servers():
-        thread.join()
-    assert listening_ports() == []
-
-
-@pytest.mark.parametrize("options", [["-n", "-x"], ["-n"]])
-def test_a_session_without_a_prompt_has_no_ports(options, tmp_path):
-    """Importing the package closes them, whatever the script does then."""
-    script = tmp_path / "my_scene.py"
-    script.write_text(
-        "import os\nimport yade_timber\nfrom ports import listening_ports\n"
-        "print('ports', listening_ports(), flush=True)\n"
-        "os._exit(0)\n")
-    done = subprocess.run(["yade", *options, str(script)], stdin=subprocess.DEVNULL, capture_output=True, text=True,
-                          timeout=60)
-    assert "ports []" in done.stdout, done.stdout + done.stderr
-
-
-@pytest.mark.parametrize("terminal, exits, prompt", [(True, False, True), (True, True, False), (False, False, False),
-                                                     (False, True, False)])
-def test_who_has_a_prompt(monkeypatch, terminal, exits, prompt):
-    monkeypatch.setattr(yade.runtime.opts, "exitAfter", exits)
-    monkeypatch.setattr(host.sys, "stdin", SimpleNamespace(isatty=lambda: terminal))
-    assert host.has_prompt() is prompt

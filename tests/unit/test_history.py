@@ -8,9 +8,9 @@ import os
 import numpy as np
 import pytest
 import small_frames
-from yade_timber.base.errors import RunError
-from yade_timber.recording import drift
-from yade_timber.recording.history import History
+from timber_houses.base.errors import RunError
+from timber_houses.recording import drift
+from timber_houses.recording.history import History
 
 
 @pytest.fixture

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """scripts/house.py: scenario from options and house file; refusal of bad input in one line."""
 import pytest
-from yade_timber.run import cli
-from yade_timber.run.options import QUIET_DURATION
-from yade_timber.run.plan import planned
-from yade_timber.api.script import main_house
+from timber_houses.run import cli
+from timber_houses.run.options import QUIET_DURATION
+from timber_houses.run.plan import planned
+from timber_houses.api.script import main_house
 
 SNOWY = "extends: storehouse\nname: mine\nsnow: {depth: 0.7}\n"
 

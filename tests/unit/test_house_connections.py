@@ -10,7 +10,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
-from yade_timber.house import build_house, load_house
+from timber_houses.house import build_house, load_house
 
 PLATES = """
 joints:

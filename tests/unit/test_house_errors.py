@@ -14,9 +14,9 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
-from yade_timber.house import HouseError, build_house, limits, load_house
-from yade_timber.house.loader import SHIPPED
-from yade_timber.house.parser import parse_table
+from timber_houses.house import HouseError, build_house, limits, load_house
+from timber_houses.house.loader import SHIPPED
+from timber_houses.house.parser import parse_table
 
 STOREHOUSE = """\
 name: storehouse

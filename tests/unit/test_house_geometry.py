@@ -13,9 +13,9 @@ from scipy.spatial.transform import Rotation
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
 
-from yade_timber.house.geometry import (Polyhedron, box, clip_convex, contact_polygon, halfspace_vertices, polygon_area,
-                                        separation)
-from yade_timber.house.joints import spring_points
+from timber_houses.house.geometry import (Polyhedron, box, clip_convex, contact_polygon, halfspace_vertices,
+                                          polygon_area, separation)
+from timber_houses.house.joints import spring_points
 
 UNIT_BOX = [((1, 0, 0), 1), ((-1, 0, 0), 0), ((0, 1, 0), 1), ((0, -1, 0), 0), ((0, 0, 1), 1), ((0, 0, -1), 0)]
 

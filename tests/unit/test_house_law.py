@@ -5,12 +5,13 @@ import math
 import pytest
 import yade.wrapper as yw
 from yade import O
-from yade_timber.base.gravity import GRAVITY
-from yade_timber.house import friction
-from yade_timber.house.errors import HouseError
-from yade_timber.run.identity import identity, made_from
-from yade_timber.run.options import RunOptions
-from yade_timber.scene import engines, scenario
+from timber_houses.base.gravity import GRAVITY
+from timber_houses.house import friction
+from timber_houses.house.errors import HouseError
+from timber_houses.run.identity import identity, made_from
+from timber_houses.run.options import RunOptions
+from timber_houses.scene import scenario
+from yade_timber.scene import engines
 
 
 def built(tmp_path, law):

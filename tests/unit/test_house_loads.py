@@ -10,8 +10,8 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
-from yade_timber.house import HouseError, build_house, load_house, weigh
-from yade_timber.house.weight import sentence
+from timber_houses.house import HouseError, build_house, load_house, weigh
+from timber_houses.house.weight import sentence
 
 G = 9.81
 HOUSE = """\

@@ -16,8 +16,8 @@ from scipy.integrate import quad
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
-from yade_timber.base.joint_kinds import WALL_KINDS
-from yade_timber.house import build_house, check_house, load_house, overlaps, shipped_houses
+from timber_houses.base.joint_kinds import WALL_KINDS
+from timber_houses.house import build_house, check_house, load_house, overlaps, shipped_houses
 
 HOUSES = ["A", "B", "C", "B1", "B2", "C1", "C2"]
 EXAMPLES = ["storehouse", "l_house", "tiled_house"]

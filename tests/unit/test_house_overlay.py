@@ -10,7 +10,7 @@ import yaml
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
 
-from yade_timber.house import HouseError, build_house, changed_house, free_bays, load_house
+from timber_houses.house import HouseError, build_house, changed_house, free_bays, load_house
 
 
 def where(column):

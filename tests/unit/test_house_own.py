@@ -12,7 +12,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
-from yade_timber.house import HouseError, build_house, check_house, load_house
+from timber_houses.house import HouseError, build_house, check_house, load_house
 
 SHED = """\
 extends: base

@@ -11,8 +11,8 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
-from yade_timber.house.layout import HOUSE
-from yade_timber.house.schema import REQUIRED, Choice, Flag, ListOf, MapOf, Number, Pair, Record, Text, Variants
+from timber_houses.house.layout import HOUSE
+from timber_houses.house.schema import REQUIRED, Choice, Flag, ListOf, MapOf, Number, Pair, Record, Text, Variants
 
 PAGE = ROOT / "docs" / "house_files.md"
 HEADING = re.compile(r"^#+ .*`([^`]*)`$")

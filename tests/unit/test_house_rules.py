@@ -6,8 +6,8 @@ Needs no YADE.
 import numpy as np
 import pytest
 
-from yade_timber.house import HouseError, build_house, diagnose, load_house, weigh
-from yade_timber.house.weight import sentence
+from timber_houses.house import HouseError, build_house, diagnose, load_house, weigh
+from timber_houses.house.weight import sentence
 
 SILL, COLUMNS, BEAMS = ("{layer: sill, height: 0.12, width: 0.12}", "{layer: columns, height: 2.7}",
                         "{layer: beams, height: 0.24, width: 0.12}")

@@ -10,13 +10,14 @@ import pytest
 import yaml
 import yade_timber as yt
 from yade import O
-from yade_timber.base.time_step import MAX_DT
-from yade_timber.run.observer import Observer, cause_of
-from yade_timber.scene import engines, scenario
-from yade_timber.house import HouseError
-from yade_timber.motion import GroundMotion
-from yade_timber.house.loader import SHIPPED
-from yade_timber.text import english
+from timber_houses.base.time_step import MAX_DT
+from timber_houses.run.observer import Observer, cause_of
+from timber_houses.scene import scenario
+from yade_timber.scene import engines
+from timber_houses.house import HouseError
+from timber_houses.motion import GroundMotion
+from timber_houses.house.loader import SHIPPED
+from timber_houses.text import english
 
 STOREHOUSE = (SHIPPED / "storehouse.yaml").read_text()
 ROOF = "type: gable, ridge: y, pitch: 0.45, eaves: 0.30, thickness: 0.20, material: tiles"

@@ -13,9 +13,9 @@ import yaml
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
-from yade_timber.house.diagnosis import diagnose
-from yade_timber.house import HouseError, build_house, changed_house, free_wall_bays, load_house, weigh
-from yade_timber.house.nails import nailed_wall
+from timber_houses.house.diagnosis import diagnose
+from timber_houses.house import HouseError, build_house, changed_house, free_wall_bays, load_house, weigh
+from timber_houses.house.nails import nailed_wall
 
 
 def house(tmp_path, walls, types="{}", base="C", level=None):

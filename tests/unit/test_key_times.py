@@ -4,9 +4,9 @@
 import numpy as np
 import pytest
 from small_frames import frames
-from yade_timber.pictures import key_times, report_pictures, sheets
-from yade_timber.pictures.views import FRONT
-from yade_timber.recording.events import Event, StructureFallen
+from timber_houses.pictures import key_times, report_pictures, sheets
+from timber_houses.pictures.views import FRONT
+from timber_houses.recording.events import Event, StructureFallen
 
 
 def test_named_times():

@@ -11,14 +11,17 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import yade.wrapper as yw
+import yade_timber as yt
 from yade import O, PyRunner
-from yade_timber.recording import frames
-from yade_timber.base import lock
-from yade_timber.run import live
-from yade_timber.run.options import RunOptions
-from yade_timber.run.runner import Run
-from yade_timber.scene import scenario
+from timber_houses.recording import frames
+from timber_houses.base import lock
+from timber_houses.run import live
+from timber_houses.run.options import RunOptions
+from timber_houses.run.runner import Run
+from timber_houses.scene import scenario
 from yade_timber.scene.engines import find_engine
+
+yt.guard()
 
 
 def begin(folder, steps=4000, quiet=True, **more):

@@ -10,6 +10,8 @@ from yade import O
 from yade.minieigenHP import Quaternion, Vector3
 from yade_timber.plugin import compiled
 
+yt.guard()
+
 NAN, INF = math.nan, math.inf
 
 

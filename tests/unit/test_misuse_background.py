@@ -13,7 +13,9 @@ from yade import O
 from yade_timber.plugin import compiled
 from yade_timber.scene.background import between_steps
 from yade_timber.scene.engines import find_engine
-from yade_timber.scene.modes import natural_modes
+from timber_houses.scene.modes import natural_modes
+
+yt.guard()
 
 LISTS = {yw.HouseMonitor: "peak rows", yw.StructureMonitor: "load opening pull rows shear",
          yw.JointEngine: "breaks joints",

@@ -11,6 +11,8 @@ from yade import O
 from yade.minieigenHP import Vector3
 from yade_timber.scene.engines import find_engine
 
+yt.guard()
+
 
 def sphere():
     """A ball of YADE's beside the column."""

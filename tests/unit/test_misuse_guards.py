@@ -12,6 +12,8 @@ from yade import O
 from yade.minieigenHP import Vector3
 from yade_timber.scene.engines import find_engine
 
+yt.guard()
+
 raw_update = yt.scene.attributes._update_attributes
 """YADE's own updateAttrs: a door that no rule in Python watches."""
 

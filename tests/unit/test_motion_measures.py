@@ -12,8 +12,8 @@ from scipy.integrate import solve_ivp
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
 
-from yade_timber import motion as gm
-from yade_timber.motion.measures import jma_filter, lasting_level, oscillator
+from timber_houses import motion as gm
+from timber_houses.motion.measures import jma_filter, lasting_level, oscillator
 
 
 def one_component(values, dt, column=1):

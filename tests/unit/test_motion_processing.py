@@ -10,7 +10,7 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
 
-from yade_timber import motion as gm
+from timber_houses import motion as gm
 
 
 def tone(dt=0.01, duration=20.0, frequency=2.0):

@@ -16,11 +16,11 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
 
-from yade_timber.motion import (GAL, GroundMotion, MotionRequest, RecordError, RecordWarning, read_motion, trim,
+from timber_houses.motion import (GAL, GroundMotion, MotionRequest, RecordError, RecordWarning, read_motion, trim,
                                 write_csv)
-from yade_timber.motion.readers import find_files
-from yade_timber.motion.record import STANDARD_GRAVITY
-from yade_timber.motion.text import direction_of
+from timber_houses.motion.readers import find_files
+from timber_houses.motion.record import STANDARD_GRAVITY
+from timber_houses.motion.text import direction_of
 
 pytestmark = pytest.mark.filterwarnings("ignore:.*constant part")  # of the few samples below
 N = 40

@@ -11,10 +11,10 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
-from yade_timber.motion import GroundMotion, MotionRequest, RecordError, joined, read_motion, write_csv
-from yade_timber.motion.processing import in_axes, interpolation_error, scaled, trim, turned
-from yade_timber.motion.sequence import common_step, following, with_then
-from yade_timber.study.batch.table import read_table
+from timber_houses.motion import GroundMotion, MotionRequest, RecordError, joined, read_motion, write_csv
+from timber_houses.motion.processing import in_axes, interpolation_error, scaled, trim, turned
+from timber_houses.motion.sequence import common_step, following, with_then
+from timber_houses.study.batch.table import read_table
 
 
 def motion(dt, n, name="a", seed=0):
@@ -149,6 +149,6 @@ def test_the_column_of_a_table(files):
     assert following(row.then, "then")[0][1] == 0.8 and read_motion(row.record).dt == pytest.approx(0.01)
     before = row.name
     write_csv(motion(0.01, 500, "main", 2), files / "main.csv")
-    from yade_timber.study.batch import table
+    from timber_houses.study.batch import table
     table._record_digest.cache_clear()
     assert read_table(path)[0].name != before

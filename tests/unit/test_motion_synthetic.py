@@ -13,8 +13,8 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
-from yade_timber import motion as gm
-from yade_timber.motion.synthetic import DEFAULT_SEED
+from timber_houses import motion as gm
+from timber_houses.motion.synthetic import DEFAULT_SEED
 
 SEEDS = range(7)
 PEAKS = {

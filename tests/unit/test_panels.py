@@ -12,11 +12,11 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
-from yade_timber.house import build_house, load_house
-from yade_timber.pictures import drawings
-from yade_timber.pictures.figures import new_figure
-from yade_timber.pictures.panels import draw_panels, panels
-from yade_timber.pictures.views import FRONT, SIDE, Snapshot
+from timber_houses.house import build_house, load_house
+from timber_houses.pictures import drawings
+from timber_houses.pictures.figures import new_figure
+from timber_houses.pictures.panels import draw_panels, panels
+from timber_houses.pictures.views import FRONT, SIDE, Snapshot
 
 
 def column(y):

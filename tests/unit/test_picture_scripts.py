@@ -10,9 +10,9 @@ import h5py
 import in_process
 import pytest
 from small_frames import frames
-from yade_timber.pictures.figures import stem_and_endings
-from yade_timber.recording import frames as recorded
-from yade_timber.recording.events import Event, Tilt
+from timber_houses.pictures.figures import stem_and_endings
+from timber_houses.recording import frames as recorded
+from timber_houses.recording.events import Event, Tilt
 
 SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
 

@@ -16,13 +16,13 @@ import frames_sample
 import numpy as np
 import pytest
 from summaries import sample_summary
-from yade_timber.base.errors import RunError
-from yade_timber.pictures import key_times, player
-from yade_timber.recording.events import Collapse, ColumnsLost, Event, OwnWeight, SnowFallen, StructureFallen, Tilt
-from yade_timber.recording.verdict import Structure
-from yade_timber.text import japanese
-from yade_timber.pictures.packing import pack
-from yade_timber.recording import frames
+from timber_houses.base.errors import RunError
+from timber_houses.pictures import key_times, player
+from timber_houses.recording.events import Collapse, ColumnsLost, Event, OwnWeight, SnowFallen, StructureFallen, Tilt
+from timber_houses.recording.verdict import Structure
+from timber_houses.text import japanese
+from timber_houses.pictures.packing import pack
+from timber_houses.recording import frames
 
 SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "show" / "make_player.py"
 

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-SOURCES, ASSETS = ROOT / "player", ROOT / "py" / "yade_timber" / "data" / "player"
+SOURCES, ASSETS = ROOT / "player", ROOT / "py" / "timber_houses" / "data" / "player"
 
 
 def source_hash():

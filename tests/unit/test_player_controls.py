@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from browser import errors, wait
 from player_page import PHONE, ask, click, load, press, reshape
-from yade_timber.pictures import player
+from timber_houses.pictures import player
 
 pytest_plugins = ["player_fixtures"]
 

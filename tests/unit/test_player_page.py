@@ -9,8 +9,8 @@ import pytest
 from browser import errors, picture, wait
 from player_page import (LYING_PHONE, MIDDLE, PHONE, ROOF_IS_DARK, WIDE, ask, at_rest, between, click, load, pixels,
                          press, reshape, roof_is_drawn)
-from yade_timber.pictures import key_times, player
-from yade_timber.recording import frames
+from timber_houses.pictures import key_times, player
+from timber_houses.recording import frames
 
 pytest_plugins = ["player_fixtures"]
 

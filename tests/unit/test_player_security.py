@@ -5,8 +5,8 @@ import frames_sample
 import pytest
 from browser import errors
 from player_page import ask, load
-from yade_timber.pictures import player
-from yade_timber.recording.events import Event, StructureFallen
+from timber_houses.pictures import player
+from timber_houses.recording.events import Event, StructureFallen
 
 pytest_plugins = ["player_fixtures"]
 

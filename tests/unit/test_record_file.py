@@ -6,14 +6,14 @@ import os
 from pathlib import Path
 
 import pytest
-from yade_timber.base import record_file
-from yade_timber.base.errors import RunError
-from yade_timber.base.record_file import open_record, read_record
-from yade_timber.recording import append_log, ensemble, frames, peaks
-from yade_timber.recording.history import History
-from yade_timber.recording.summary import Summary
-from yade_timber.run.options import RunOptions
-from yade_timber.study.driver import Task
+from timber_houses.base import record_file
+from timber_houses.base.errors import RunError
+from timber_houses.base.record_file import open_record, read_record
+from timber_houses.recording import append_log, ensemble, frames, peaks
+from timber_houses.recording.history import History
+from timber_houses.recording.summary import Summary
+from timber_houses.run.options import RunOptions
+from timber_houses.study.driver import Task
 
 PACKAGE = Path(record_file.__file__).parents[1]
 READERS = {

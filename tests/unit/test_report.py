@@ -12,17 +12,17 @@ import numpy as np
 import pytest
 from markupsafe import escape
 from summaries import sample_summary
-from yade_timber.base.errors import RunError
-from yade_timber.pictures import figures, quantities, report, report_pictures
-from yade_timber.recording import peaks
-from yade_timber.recording.failures import first_failures
-from yade_timber.recording.events import Collapse, Event, SnowFallen
-from yade_timber.recording.summary import Mode, ModesAt, Summary, Weight
-from yade_timber.recording.quantities import SUSTAINED, Storeys, band_limited, ground_velocity, storeys
-from yade_timber.recording.frames import Motion, load
-from yade_timber.run.options import RunOptions, scripted
-from yade_timber.run.runner import clear
-from yade_timber.text.lines import MOST, lines
+from timber_houses.base.errors import RunError
+from timber_houses.pictures import figures, quantities, report, report_pictures
+from timber_houses.recording import peaks
+from timber_houses.recording.failures import first_failures
+from timber_houses.recording.events import Collapse, Event, SnowFallen
+from timber_houses.recording.summary import Mode, ModesAt, Summary, Weight
+from timber_houses.recording.quantities import SUSTAINED, Storeys, band_limited, ground_velocity, storeys
+from timber_houses.recording.frames import Motion, load
+from timber_houses.run.options import RunOptions, scripted
+from timber_houses.run.runner import clear
+from timber_houses.text.lines import MOST, lines
 
 ROOT = Path(__file__).resolve().parents[2]
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 import yade_timber as yt
 from yade import O
-from yade_timber.motion import GroundMotion
-from yade_timber.scene import scenario
+from timber_houses.motion import GroundMotion
+from timber_houses.scene import scenario
 from yade_timber.scene.engines import find_engine
 
 STRIDE = 250

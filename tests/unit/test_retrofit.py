@@ -9,11 +9,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from yade_timber.base.errors import RunError
-from yade_timber.house import changed_house
-from yade_timber.study.retrofit import candidates as measures
-from yade_timber.study.retrofit import motions, overview, race
-from yade_timber.study.retrofit import runs as rounds
+from timber_houses.base.errors import RunError
+from timber_houses.house import changed_house
+from timber_houses.study.retrofit import candidates as measures
+from timber_houses.study.retrofit import motions, overview, race
+from timber_houses.study.retrofit import runs as rounds
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.append(str(ROOT / "scripts" / "study"))

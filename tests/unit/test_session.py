@@ -9,7 +9,7 @@ import yade.wrapper as yw
 import yade_timber as yt
 from compare import assert_close
 from yade import O
-from yade_timber.motion import GroundMotion
+from timber_houses.motion import GroundMotion
 from yade_timber.scene.engines import find_engine, gravity_now
 
 

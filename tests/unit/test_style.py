@@ -13,17 +13,17 @@ from cycler import Cycler, cycler
 from matplotlib import style
 from matplotlib.style.core import STYLE_BLACKLIST
 from small_frames import frames
-from yade_timber.house import build_house, load_house
-from yade_timber.motion import default_motion
-from yade_timber.pictures import curves, drawings, figures, fonts, motion_sheet, report, report_pictures, sheets
-from yade_timber.pictures.views import FRONT
+from timber_houses.house import build_house, load_house
+from timber_houses.motion import default_motion
+from timber_houses.pictures import curves, drawings, figures, fonts, motion_sheet, report, report_pictures, sheets
+from timber_houses.pictures.views import FRONT
 
 OTHER_TEXTS = {
     "white": "black", "black": "white", "DejaVu Sans": "DejaVu Serif", "sans-serif": "serif", "normal": "italic",
     "left": "right"
 }
 ROOT = Path(__file__).resolve().parents[2]
-PACKAGE = ROOT / "py" / "yade_timber"
+PACKAGE = ROOT / "py" / "timber_houses"
 RECORD = ROOT / "scripts" / "show" / "show_record.py"
 
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from h5py import h5p, h5s, h5t, h5z
 from small_frames import frames
-from yade_timber.base.errors import RunError
-from yade_timber.recording import frames as files
+from timber_houses.base.errors import RunError
+from timber_houses.recording import frames as files
 
 WORDS = b"words of another file " * 20
 

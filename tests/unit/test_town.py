@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from yade_timber.motion import GroundMotion, write_csv
-from yade_timber.pictures import key_times
-from yade_timber.recording import frames
+from timber_houses.motion import GroundMotion, write_csv
+from timber_houses.pictures import key_times
+from timber_houses.recording import frames
 
 SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
 SHORT = ["--dt", "2e-4", "--quiet", "--no-views"]

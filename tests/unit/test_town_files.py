@@ -5,13 +5,13 @@ import numpy as np
 import pytest
 
 from summaries import sample_summary
-from yade_timber.house import HouseError, build_house, load_house, load_town
-from yade_timber.house.town import Lot, check_places
-from yade_timber.motion import GroundMotion
-from yade_timber.motion.processing import in_axes
-from yade_timber.recording.events import Event, SnowFallen, StructureFallen, Tilt
-from yade_timber.recording.town import summary as town_summary
-from yade_timber.recording.town import town_side
+from timber_houses.house import HouseError, build_house, load_house, load_town
+from timber_houses.house.town import Lot, check_places
+from timber_houses.motion import GroundMotion
+from timber_houses.motion.processing import in_axes
+from timber_houses.recording.events import Event, SnowFallen, StructureFallen, Tilt
+from timber_houses.recording.town import summary as town_summary
+from timber_houses.recording.town import town_side
 
 GOOD = """name: harbour
 wave: {velocity: 500, direction: 90}

@@ -9,16 +9,16 @@ import textwrap
 import numpy as np
 import pytest
 from PIL import Image
-from yade_timber.base import colors
+from timber_houses.base import colors
 
 SESSION = textwrap.dedent(
     """
     import os, time
     from yade import O
-    from yade_timber.run import cli
-    from yade_timber.run.plan import planned
-    from yade_timber.scene import scenario
-    from yade_timber.scene import viewer
+    from timber_houses.run import cli
+    from timber_houses.run.plan import planned
+    from timber_houses.scene import scenario
+    from timber_houses.scene import viewer
     from PyQt5 import QtWidgets
 
     def draw(times):

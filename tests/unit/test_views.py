@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from matplotlib import image
 from small_frames import frames
-from yade_timber.pictures import all_pictures, curves, figures, key_times, raster, renderer, sheets, stage, views
-from yade_timber.pictures.raster import Window
-from yade_timber.pictures.views import FRONT, SIDE, Solid
-from yade_timber.recording import frames as recorded
+from timber_houses.pictures import all_pictures, curves, figures, key_times, raster, renderer, sheets, stage, views
+from timber_houses.pictures.raster import Window
+from timber_houses.pictures.views import FRONT, SIDE, Solid
+from timber_houses.recording import frames as recorded
 
 FACES = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
 BOX = (-2.0, 2.0, -1.0, 3.0)
@@ -151,7 +151,7 @@ def test_pdf_files_embed_truetype_fonts(tmp_path):
 
 
 def test_a_run_without_pictures_imports_no_matplotlib():
-    code = ("import sys, yade_timber.pictures.all_pictures; "
+    code = ("import sys, timber_houses.pictures.all_pictures; "
             "sys.exit(any(name in sys.modules for name in ('matplotlib', 'moderngl')))")
     assert subprocess.run([sys.executable, "-c", code]).returncode == 0
 

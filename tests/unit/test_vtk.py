@@ -15,8 +15,8 @@ from file_limit import file_limit
 from small_frames import FACES, frames
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
-from yade_timber.pictures import vtk
-from yade_timber.recording import frames as recorded
+from timber_houses.pictures import vtk
+from timber_houses.recording import frames as recorded
 
 
 SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "show" / "export_vtk.py"

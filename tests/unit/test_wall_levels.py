@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 from summaries import sample_summary
-from yade_timber.base.errors import RunError
-from yade_timber.recording.summary import OtherWalls, Walls
-from yade_timber.run import cli
-from yade_timber.run.plan import planned
-from yade_timber.text.english import other_walls
+from timber_houses.base.errors import RunError
+from timber_houses.recording.summary import OtherWalls, Walls
+from timber_houses.run import cli
+from timber_houses.run.plan import planned
+from timber_houses.text.english import other_walls
 
 ROOT = Path(__file__).resolve().parents[2]
 

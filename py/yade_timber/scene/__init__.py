@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Bodies, joints, engines and scenarios in YADE. Needs a running YADE."""
+"""Bodies, joints, engines and queries of the scene in YADE. Needs a running YADE."""

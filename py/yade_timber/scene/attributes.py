@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Assignment to attributes of the package's classes.
 
-YADE's classes accept misspelt names in silence and keep a value that their `postLoad` has refused. `guard` mends both
-for the classes that it is given: unknown names are refused, and after a refused value the object is as before.
-`updateAttrs` of all classes sets what the attributes themselves would set. Numbers of a scene are finite, unless the
-class's own value is not.
+YADE's classes accept misspelt names in silence and keep a value that their `postLoad` has refused. `install` mends both
+for the classes that it is given: unknown names are refused, and after a refused value the object is as before; numbers
+are finite, unless the class's own value is not; `updateAttrs` sets what the attributes themselves would set. `guard`
+extends the last two to classes of YADE.
 """
 import difflib
 import math
@@ -16,7 +16,7 @@ import yade.wrapper as yw
 from yade.minieigenHP import Quaternion
 
 from .arguments import shown
-from .background import between_steps
+from .background import between_steps, within
 from .containers import LISTS
 
 FORMS = {"Real": "a number", "int": "an integer", "long": "an integer", "bool": "True or False", "string": "a string",
@@ -39,17 +39,24 @@ NOT_ZERO = dict.fromkeys(("ori", "refOri", "se3"), ", and the norm of a quaterni
 """Attributes that YADE divides by their norm: end of the message."""
 MEASURED = ("rows",)
 """Attributes that a monitor fills: in a scene that fails, they are not finite."""
-_guarded = set()
+_own = set()
 _update_attributes = yw.Serializable.updateAttrs
 
 
-def guard(classes):
-    """Install the rules of this module on classes of yade.wrapper."""
-    _guarded.update(classes)
-    for some, set_attribute in ((classes, _set_attribute), (FINITE, _set_finite)):
-        for cls in some:
-            cls.__init__, cls.__setattr__ = _initialiser(cls.__init__), set_attribute
-    yw.Serializable.updateAttrs = _update
+def install(classes):
+    """Install the rules of this module on classes of the package."""
+    _own.update(classes)
+    read_all = within(between_steps, yw.Serializable.dict)
+    for cls in classes:
+        cls.__init__, cls.__setattr__ = _initialiser(cls.__init__), _set_attribute
+        cls.updateAttrs, cls.dict = _update, read_all
+
+
+def guard():
+    """Install them on the classes of YADE that the package depends on."""
+    for cls in FINITE:
+        cls.__init__, cls.__setattr__ = _initialiser(cls.__init__), _set_finite
+    yw.Serializable.updateAttrs = _update_of_yade
 
 
 def _set_attribute(self, name, value):
@@ -106,26 +113,24 @@ def _assign(self, attribute, name, value):
     except CONVERSION_ERRORS:
         raise TypeError(_wrong_type(type(self), attribute, name, value)) from None
     owner = next(c for c in type(self).__mro__ if name in vars(c))
-    if name in VALIDATED_OF_YADE or (owner in _guarded and REGISTERED.search(attribute.__doc__ or "")):
+    if name in VALIDATED_OF_YADE or (owner in _own and REGISTERED.search(attribute.__doc__ or "")):
         _update_attributes(self, {name: attribute.fget(self)})
 
 
 def _update(self, attributes):
     """Update object attributes from given dictionary"""
-    cls = type(self)
-    if isinstance(self, FINITE):
-        _require_finite(cls, attributes)
-    if not isinstance(self, tuple(_guarded)):
-        return _update_of_yade(self, attributes)
     for name in attributes:
         _require_settable(self, name)
+    cls = type(self)
     with _restored(self), _named_errors(cls, attributes):
         _update_attributes(self, attributes)
         _require_finite(cls, attributes)
 
 
 def _update_of_yade(self, attributes):
-    """Update an object of a class of YADE's own: bodies and states have rules for some attributes (`background`)."""
+    """Update object attributes from given dictionary"""
+    if isinstance(self, FINITE):
+        _require_finite(type(self), attributes)
     ruled = {name: value for name, value in attributes.items() if (type(self), name) in RULED}
     if isinstance(self, yw.Body) and "id" in attributes:
         raise AttributeError("Body.id is read-only")

@@ -3,8 +3,8 @@
 
 YADE's containers and the lists of the engines are not locked: a body that is erased, or a list that is read, within a
 step ends the process. A scene that is replaced within a step blocks it for ever if the step runs Python code.
-`O.pause()` returns before the step ends. `guard` lets what GUARDED lists wait for the end of the step. It also refuses
-a body's shape, material or state that the package's engines cannot deal with.
+`O.pause()` returns before the step ends. `install` lets what OWN lists wait for the end of the step, `guard` what YADES
+lists. `guard` also refuses a body's shape, material or state that the package's engines cannot deal with.
 
 Threads take turns to start, interrupt and await a run: what is guarded waits while another thread is in `O.wait()`.
 """
@@ -20,7 +20,7 @@ BODY_PARTS = ("shape", "material", "state")
 O = yw.Omega()
 _turn = threading.RLock()
 _pauses = 0
-"""Number of calls of `O.pause`. [-]"""
+"""Number of calls of `O.pause`, counted after `guard`. [-]"""
 
 
 @contextmanager
@@ -72,7 +72,7 @@ def _until_started():
         compiled.await_step(before)
 
 
-GUARDED = (
+YADES = (
     (yw.BodyContainer, between_steps, ("append", "appendClumped", "clump", "addToClump", "releaseFromClump", "erase",
                                        "insertAtId", "replace", "clear", "deleteClumpBody", "deleteClumpMember")),
     (yw.InteractionContainer, between_steps, ("erase", "eraseNonReal", "clear")),
@@ -82,6 +82,8 @@ GUARDED = (
     (yw.Omega, _until_step, ("wait",)),
     (yw.Omega, _until_started, ("run",)),
     (yw.Serializable, between_steps, ("dict",)),
+)
+OWN = (
     (yw.ContactForces, between_steps, ("largestEigenvalue",)),
     (yw.HealthCheck, between_steps, ("check",)),
     (yw.HouseMonitor, between_steps, ("columnPeak", "energy", "medianPeak", "peak", "rows")),
@@ -94,27 +96,36 @@ GUARDED = (
     (compiled, between_steps, ("dashpot_power", "packed_contacts", "packed_joints", "packed_placements",
                                "packed_springs")),
 )
-"""Class or module, context, its methods and attributes that are called and read within it; which there are depends on
-YADE's version."""
+"""Class or module, context, its methods and attributes that are called and read within it; which there are of YADE's
+depends on its version."""
+
+
+def install():
+    """Install the rules of this module on the package's classes."""
+    _wrap(OWN)
 
 
 def guard():
-    """Install the rules of this module on YADE's containers and bodies and on the package's classes."""
-    for owner, context, names in GUARDED:
-        for name in filter(lambda name: hasattr(owner, name), names):
-            setattr(owner, name, _within(context, getattr(owner, name)))
+    """Install them on YADE's containers and bodies."""
+    _wrap(YADES)
     for name in BODY_PARTS:
         setattr(yw.Body, name, _checked(name, getattr(yw.Body, name)))
     yw.State.angVel = _with_momentum(yw.State.angVel)
     engines = yw.Omega.engines
-    yw.Omega.engines = property(engines.fget, _within(between_steps, engines.fset), doc=engines.__doc__)
+    yw.Omega.engines = property(engines.fget, within(between_steps, engines.fset), doc=engines.__doc__)
     yw.Omega.pause = _counted(yw.Omega.pause)
 
 
-def _within(context, part):
+def _wrap(table):
+    for owner, context, names in table:
+        for name in filter(lambda name: hasattr(owner, name), names):
+            setattr(owner, name, within(context, getattr(owner, name)))
+
+
+def within(context, part):
     """A function, or a property with its getter, that waits within a context, but not in the thread of the steps."""
     if isinstance(part, property):
-        return property(_within(context, part.fget), part.fset, doc=part.__doc__)
+        return property(within(context, part.fget), part.fset, doc=part.__doc__)
 
     def call(*args, **options):
         if _computes_steps():
@@ -156,14 +167,19 @@ def _checked(name, part):
     return property(part.fget, set_part, doc=part.__doc__)
 
 
+def follow_velocity(state):
+    """Set the angular momentum of a state, which the integrator uses, to that of its angular velocity."""
+    local = state.ori.conjugate() * state.angVel
+    state.angMom = state.ori * Vector3(*(v * i for v, i in zip(local, state.inertia)))
+
+
 def _with_momentum(part):
-    """Property angVel of a state whose angular momentum, which the integrator uses, follows when it is set."""
+    """Property angVel of a state whose angular momentum follows when it is set."""
 
     def set_velocity(state, value):
         with between_steps():
             part.fset(state, value)
-            local = state.ori.conjugate() * state.angVel
-            state.angMom = state.ori * Vector3(*(v * i for v, i in zip(local, state.inertia)))
+            follow_velocity(state)
 
     return property(part.fget, set_velocity, doc=part.__doc__)
 

@@ -9,6 +9,7 @@ import yade.wrapper as yw
 from yade.minieigenHP import Quaternion, Vector3
 
 from . import arguments
+from .background import follow_velocity
 from .queries import imposed_velocities
 
 O = yw.Omega()
@@ -217,3 +218,4 @@ def set_velocity(body, velocity, angular_velocity=(0, 0, 0)):
     angular_velocity = arguments.vector("angular_velocity", angular_velocity, "rad/s")
     with imposed_velocities():
         body.state.vel, body.state.angVel = velocity, angular_velocity
+        follow_velocity(body.state)

@@ -5,7 +5,7 @@ import math
 
 import yade.wrapper as yw
 
-from ..base.atomic_write import write_text
+from ..atomic_write import write_text
 from . import engines
 from .background import between_steps
 from .joints import joins_bodies

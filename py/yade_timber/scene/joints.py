@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import yade.wrapper as yw
 from yade.minieigenHP import Vector2, Vector3
 
-from ..house.model import JointSpec
+from ..joint_values import JointValues
 from . import arguments
 from .background import between_steps
 from .engines import find_engine
@@ -91,7 +91,7 @@ def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strengt
 
 
 def checked_springs(points, normal, stiffness, strength, per, kind, name, damping_ratio):
-    """JointSpec of the arguments of `connect`. Raises ValueError or TypeError for a wrong one."""
+    """JointValues of the arguments of `connect`. Raises ValueError or TypeError for a wrong one."""
     if not isinstance(per, str) or per not in PER_JOINT:
         arguments.refuse(ValueError, "connect: per", per, f"one of {', '.join(PER_JOINT)}")
     points = arguments.points("connect: points", points)
@@ -108,7 +108,8 @@ def checked_springs(points, normal, stiffness, strength, per, kind, name, dampin
     damping_ratio = arguments.number("connect: damping_ratio", damping_ratio)
     if not 0 <= damping_ratio <= 1:
         arguments.refuse(ValueError, "connect: damping_ratio", damping_ratio, "between 0 and 1")
-    return JointSpec("", "", points, normal, kind, kn, ks, strength, per, label=name, damping_ratio=damping_ratio)
+    return JointValues(points=points, normal=normal, kind=kind, kn=kn, ks=ks, strength=strength, per=per, label=name,
+                       damping_ratio=damping_ratio)
 
 
 def require_near(points, *ids):
@@ -134,7 +135,7 @@ def add_joint_engine():
 
 
 def make_joint(id1, id2, springs):
-    """TimberJoint between two bodies of the scene in their present placement; springs: JointSpec."""
+    """TimberJoint between two bodies of the scene in their present placement; springs: JointValues."""
     s1, s2 = O.bodies[id1].state, O.bodies[id2].state
     points = [Vector3(*p) for p in springs.points]
     direction = Vector3(*springs.normal) if springs.normal is not None else s2.pos - s1.pos

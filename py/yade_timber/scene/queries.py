@@ -6,7 +6,7 @@ import numpy as np
 import yade.wrapper as yw
 from yade.minieigenHP import Vector3
 
-from ..base.energy_terms import IMPOSED, SUPPLIED
+from ..energy_terms import IMPOSED, SUPPLIED
 from . import arguments
 from .background import between_steps
 from .engines import find_engine

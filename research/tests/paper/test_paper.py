@@ -13,9 +13,9 @@ from pathlib import Path
 import pytest
 from summaries import sample_summary
 from timber_research import SCRIPTS, claims
-from yade_timber.base.json_types import encode
-from yade_timber.run.options import scripted
-from yade_timber.study.driver import Task, run_missing
+from timber_houses.base.json_types import encode
+from timber_houses.run.options import scripted
+from timber_houses.study.driver import Task, run_missing
 
 GOLDEN = Path(__file__).resolve().with_name("paper_runs.json")
 LEFT_OUT = ("wall_s", "real_time_factor", "threads", "made_from", "quantities", "events", "weight", "diagnosis")

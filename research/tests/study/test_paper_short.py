@@ -12,9 +12,10 @@ import yade.wrapper as yw
 import yaml
 from timber_research.claims import STILL
 from yade import O
-from yade_timber.house import changed_house
-from yade_timber.motion import default_motion, trim
-from yade_timber.scene import engines, scenario
+from timber_houses.house import changed_house
+from timber_houses.motion import default_motion, trim
+from timber_houses.scene import scenario
+from yade_timber.scene import engines
 
 START, END = 16.6, 26.0
 """Strong shaking of the default motion. [s]"""

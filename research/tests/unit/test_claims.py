@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 from summaries import sample_summary
 from timber_research import claims, comparison, report
-from yade_timber.run.options import scripted
-from yade_timber.study.driver import Task
+from timber_houses.run.options import scripted
+from timber_houses.study.driver import Task
 
 
 def summary(model, snow=False, sway_ns=0.001, sway_ew=0.001, lean=0.0, springs=0, collapse=None, leans=None, fallen=0,

@@ -16,10 +16,10 @@ from timber_research.screening.collect import Results, collect
 from timber_research.screening.effects import EMPTY, INTERACTION, MAIN, Effect, effects
 from timber_research.screening.responses import COUNT as NUMBER
 from timber_research.screening.responses import LOG, RESPONSES, SHARE
-from yade_timber.house import build_house, load_house
-from yade_timber.run.options import RunOptions
-from yade_timber.study.batch import read_table
-from yade_timber.study.batch.tasks import task_of
+from timber_houses.house import build_house, load_house
+from timber_houses.run.options import RunOptions
+from timber_houses.study.batch import read_table
+from timber_houses.study.batch.tasks import task_of
 
 NAMES = [factor.name for factor in FACTORS]
 COUNT = len(FACTORS)

@@ -9,11 +9,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import yaml
-from yade_timber.base.atomic_write import write_text
-from yade_timber.base.table import csv_text
-from yade_timber.base.time_step import DEFAULT_DT
-from yade_timber.motion import MotionRequest, onset
-from yade_timber.study.batch.table import NO_EARTHQUAKE
+from yade_timber.atomic_write import write_text
+from timber_houses.base.table import csv_text
+from timber_houses.base.time_step import DEFAULT_DT
+from timber_houses.motion import MotionRequest, onset
+from timber_houses.study.batch.table import NO_EARTHQUAKE
 
 from .. import design
 from ..claims import RUNS, parse_run

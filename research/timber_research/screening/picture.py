@@ -6,9 +6,9 @@ import textwrap
 
 import numpy as np
 from matplotlib.figure import Figure
-from yade_timber.base.atomic_write import written_whole
-from yade_timber.base.colors import BLUE, GREY, ORANGE
-from yade_timber.pictures.style import default_style
+from yade_timber.atomic_write import written_whole
+from timber_houses.base.colors import BLUE, GREY, ORANGE
+from timber_houses.pictures.style import default_style
 
 from .. import design
 from ..factors import FACTORS

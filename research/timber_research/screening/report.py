@@ -2,9 +2,9 @@
 """Tables of a screening: cells, main effects, interactions."""
 import math
 
-from yade_timber.base.atomic_write import write_text
-from yade_timber.base.table import csv_text
-from yade_timber.text.english import counted
+from yade_timber.atomic_write import write_text
+from timber_houses.base.table import csv_text
+from timber_houses.text.english import counted
 
 from .. import design
 from ..claims import CLAIMS

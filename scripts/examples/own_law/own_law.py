@@ -16,7 +16,7 @@ import numpy as np
 from yade import O
 
 import yade_timber as yt
-from yade_timber.base.colors import BLUE, ORANGE
+from timber_houses.base.colors import BLUE, ORANGE
 
 STIFFNESS, DEPTH = 2e5, 2e-3
 """Stiffness of the free pad [N/m] and overlap at which its force is twice that of constant stiffness [m]."""

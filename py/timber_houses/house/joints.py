@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Joints found from the contact areas between elements: four springs at the corners of the contact area (paper, 4), or
+one at its centre."""
+from collections import Counter
+from itertools import combinations
+
+import numpy as np
+
+from .errors import HouseError
+from .geometry import contact_polygon, plane_axes, polygon_area
+from .joint_values import END_JOINED, joint_values, kinds_of
+from .limits import MAX_PAIRS
+from .model import JointSpec
+from .schema import fail
+
+LYING = 0.1
+"""Vertical part of a contact's unit normal from which on one element lies on the other: slopes up to 84 degrees. [-]"""
+
+
+def find_joints(elements, description):
+    """JointSpec for every pair of elements whose kinds match a rule and whose faces lie flush on each other.
+
+    Contacts below `joint_search.min_area` get none: a 12 cm column touches the beam beside its own by a strip. Joints
+    of a rule at one face of an end share its fittings by their areas: a column end on two crossing beams. HouseError
+    for a rule between structures that joins none.
+    """
+    rules = description.data["joints"]
+    contacts = _contacts(elements, description.data)
+    structures = {element.group for element in elements if element.kind != "ground"}
+    for name, rule in rules.items():
+        if rule["across"] and len(structures) > 1 and all(name != other for *_, other, _ in contacts):
+            fail(rule.where, f"joints.{name}", "'across: true' joins no two structures: let their members touch, or"
+                 f" remove the rule ({name}: null)")
+    faces = [_end_face(a, name, contact) for a, _, name, contact in contacts]
+    areas = Counter()
+    for face, (*_, contact) in zip(faces, contacts):
+        areas[face] += contact[2]
+    return [_joint(a, b, contact, joint_values(description.data, rules[name], contact[2] / areas[face] if face else 1))
+            for face, (a, b, name, contact) in zip(faces, contacts)]
+
+
+def _contacts(elements, data):
+    """[(element, element, name of the rule, contact_polygon)]; the first element is the rule's first kind."""
+    rules = {(*kinds, rule["across"]): name for name, rule in data["joints"].items() for kinds in kinds_of(rule)}
+    tolerance, min_area = data["joint_search"]["plane_tolerance"], data["joint_search"]["min_area"]
+    contacts = []
+    for a, b in near_pairs(elements, tolerance):
+        across = a.group != b.group
+        if (a.kind, b.kind, across) not in rules:
+            a, b = b, a
+        name = rules.get((a.kind, b.kind, across))
+        contact = name and contact_polygon(a.solid, b.solid, tolerance)
+        if contact and contact[2] >= min_area:
+            contacts.append((a, b, name, contact))
+    return contacts
+
+
+def _end_face(a, name, contact):
+    """Key of the face of a column's or brace's end that a rule joins; None elsewhere."""
+    return (a.name, name, *np.round(contact[1], 3)) if _is_end(a, contact[1]) else None
+
+
+def _is_end(a, normal):
+    """Whether a face of an element is that of an end. Columns of two wings have joints at their sides."""
+    return a.kind in END_JOINED and (a.kind != "column" or abs(normal[2]) > LYING)
+
+
+def near_pairs(elements, margin):
+    """Pairs of elements with bounding boxes within `margin` [m], in order; HouseError for more than MAX_PAIRS."""
+    bounds = np.array([e.solid.bounds for e in elements])
+    low, high = bounds[:, 0] - margin, bounds[:, 1]
+    pairs = []
+    for i, element in enumerate(elements):
+        near = ((low[i] <= high[i + 1:]) & (low[i + 1:] <= high[i])).all(1)
+        pairs += [(element, elements[i + 1 + k]) for k in np.flatnonzero(near)]
+        if len(pairs) > MAX_PAIRS:
+            raise HouseError(f"{element.source}: {element.kind} {element.name}: more than {MAX_PAIRS} pairs of elements"
+                             " touch or overlap by their bounding boxes; move members apart")
+    return pairs
+
+
+def _joint(a, b, contact, values):
+    polygon, normal, area = contact
+    points = spring_points(polygon, normal)
+    if values.pop("at") == "centre":  # one spring: no rotational stiffness
+        points = points.mean(0)[None]
+    end = ""
+    if _is_end(a, normal):
+        end = "top" if points[:, 2].mean() > a.solid.centroid[2] else "bottom"
+    return JointSpec(a=a.name, b=b.name, points=points, normal=normal, area=area, storey=a.storey,
+                     side=a.side if a.kind in END_JOINED else a.side or b.side, end=end, group=a.group, **values)
+
+
+def spring_points(polygon, normal):
+    """Four spring points (4, 3) [m] of a contact polygon (n, 3), counter-clockwise about `normal`.
+
+    Of more than four corners, the four with the largest area; of three, these and the middle of the longest side.
+    """
+    if len(polygon) == 3:
+        return _with_midpoint(polygon)
+    flat = polygon @ np.array(plane_axes(normal)).T
+    chosen = max(combinations(range(len(polygon)), 4), key=lambda four: round(polygon_area(flat[list(four)]), 9))
+    return polygon[list(chosen)]
+
+
+def _with_midpoint(triangle):
+    following = np.roll(triangle, -1, 0)
+    longest = int(np.argmax(np.round(np.linalg.norm(following - triangle, axis=1), 9)))
+    return np.insert(triangle, longest + 1, (triangle[longest] + following[longest]) / 2, 0)

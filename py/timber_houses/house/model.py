@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A built house: elements (convex polyhedra), joints (spring points), and counts of both."""
+from collections import Counter
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from yade_timber.joint_values import JointValues
+
+from ..base.joint_kinds import WALL_COLUMN, WALL_KINDS
+from .errors import HouseError
+from .geometry import Polyhedron
+
+
+@dataclass(eq=False)
+class Element:
+    """One rigid member. World frame: x east, y north, z up, origin on the ground at the south-west column."""
+
+    name: str               # e.g. 'main.column1.x4y0'
+    kind: str               # foundation, sill, column, beam, floor, brace, roof, snow, ground
+    vertices: np.ndarray    # (n, 3) [m]
+    material: str           # key of HouseModel.materials
+    density: float          # mass over volume, with what it carries and without hollows [kg/m3]
+    fixed: bool = False
+    storey: int = 0  # storey of the columns below it (columns, braces: their own); 0 below the first
+    side: frozenset = frozenset()  # walls that it is part of: 'north', 'south', 'east', 'west'; empty inside the house
+    section: tuple = ()  # (width, depth) [m] where the member has a section
+    group: str = ""  # structure, e.g. 'main', 'entrance'
+    source: str = ""  # file:line of its description
+
+    def __repr__(self):
+        return f"<Element {self.name}: {self.kind}, {len(self.vertices)} corners>"
+
+    @cached_property
+    def solid(self):
+        try:
+            polyhedron = Polyhedron(np.asarray(self.vertices, float))
+            polyhedron.hull
+        except ValueError as problem:
+            raise HouseError(f"{self.source}: {self.kind} {self.name} is not a convex body: {problem}; change its"
+                             " dimensions") from None
+        return polyhedron
+
+    def move(self, vertices):
+        """Give it other corners (n, 3) [m]."""
+        self.vertices = vertices
+        self.__dict__.pop("solid", None)
+
+    @property
+    def volume(self):
+        """[m3]"""
+        return self.solid.volume
+
+    @property
+    def mass(self):
+        """[kg]"""
+        return self.density * self.volume
+
+    def set_mass(self, mass):
+        """Give it another mass [kg], spread evenly over its volume."""
+        self.density = mass / self.volume
+
+
+@dataclass(eq=False, kw_only=True)
+class JointSpec(JointValues):
+    """Joint of elements `a` and `b`: springs at the corners of their contact area (paper, 2.4), or one.
+
+    kind: 'column_beam', 'brace_beam', 'brace_column', 'floor_beam', 'roof_beam', 'roof_roof', ...; label: name of a
+    joint that is not named after its members, of a wall
+    """
+
+    a: str
+    b: str
+    area: float = 0.0    # contact area [m2]
+    type: str = ""       # key of joint_types
+    storey: int = 0
+    side: frozenset = frozenset()
+    end: str = ""        # columns and braces: 'top' or 'bottom' end of a
+    group: str = ""
+
+    def __repr__(self):
+        return f"<JointSpec {self.name}: {self.kind}, {self.law}{', broken' if self.broken else ''}>"
+
+    @property
+    def name(self):
+        return self.label or "|".join(filter(None, (self.a, self.b)))
+
+    @property
+    def centre(self):
+        """(3,) mean of the spring points [m]."""
+        return self.points.mean(0)
+
+
+@dataclass(eq=False)
+class HouseModel:
+    """A built house, from which bodies and joints are made."""
+
+    name: str
+    description: str
+    elements: list
+    joints: list
+    materials: dict  # name -> {'law': 'timber', 'density', 'young', 'poisson'} or
+    # {'law': 'snow', 'density', 'stiffness_per_kg'}
+    friction: list  # [(material, material, coefficient)]
+    law: dict  # 'joint_reading', ...; 'wall_level': None without walls of a rated multiplier
+    snow_depth: float  # [m]
+    storey_levels: dict  # group -> {storey: (z foot, z head) of its columns [m]}
+    grids: dict  # group -> {'x': positions of its nodes [m], 'y': likewise}
+    multipliers: dict = field(default_factory=dict)  # wall type -> multiplier of the code [-], for the diagnosis
+
+    def __repr__(self):
+        return (f"<HouseModel {self.name}: {len(self.elements)} elements, {self.joints_text}, {self.snow_depth:g} m of"
+                " snow>")
+
+    @cached_property
+    def by_name(self):
+        return {element.name: element for element in self.elements}
+
+    def element(self, name):
+        """Element `name`; raises KeyError."""
+        return self.by_name[name]
+
+    def of_kind(self, *kinds, group=None):
+        """Elements of these kinds, in building order, of one structure or of all."""
+        return [e for e in self.elements if e.kind in kinds and group in (None, e.group)]
+
+    @property
+    def joints_text(self):
+        """'412 joints, 16 wall sheets': joints without those of walls; sheets only where there are some."""
+        counts = self.counts()
+        sheets = counts["joints_by_kind"].get(WALL_COLUMN, 0)
+        return f"{counts['joints']} joints" + (f", {sheets} wall sheet{'s' * (sheets != 1)}" if sheets else "")
+
+    def counts(self):
+        """Numbers to check a house: elements, columns, braces, joints without those of walls, kinds, masses [kg]."""
+        columns, braces = self.of_kind("column"), self.of_kind("brace")
+        return {"elements": len(self.elements), "by_kind": dict(Counter(e.kind for e in self.elements)),
+                "free": sum(not e.fixed for e in self.elements),
+                "columns_by_section": dict(Counter(round(e.section[0], 4) for e in columns)),
+                "columns_by_storey": dict(Counter(f"{e.group} {e.storey}" for e in columns)), "braces": len(braces),
+                "walls": len({(j.a, j.b) for j in self.joints if j.kind == WALL_COLUMN}),
+                "braces_by_storey": dict(Counter(f"{e.group} {e.storey}" for e in braces)),
+                "joints": sum(j.kind not in WALL_KINDS for j in self.joints),
+                "joints_by_kind": dict(Counter(j.kind for j in self.joints)),
+                "broken_by_kind": dict(Counter(j.kind for j in self.joints if j.broken)),
+                "mass_timber_free": sum(e.mass for e in self.elements if not e.fixed and e.kind != "snow"),
+                "mass_snow": sum(e.mass for e in self.of_kind("snow"))}

@@ -1,0 +1,287 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Types of sheathing -> envelopes: shear per metre of wall [N/m] over the drift [rad] at first loading; and cycles."""
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import saws
+from .layout import OPENINGS, SAWS_STATES
+from .nails import nailed_wall
+from .schema import fail
+
+ALLOWABLE = 1960.0
+"""Allowable shear of a wall of multiplier 1. [N per m of wall] (Order of the Building Standard Law, Article 46)"""
+RATED_DRIFT = 1 / 120
+"""Drift at which walls with pinned feet are rated. [rad]"""
+
+
+@dataclass(frozen=True)
+class Level:
+    """Envelope of walls of a rated multiplier over their allowable shear: points (drift, ratio) before the largest
+    shear, the ratio of the largest shear, the drift from which it falls, and the drift without any."""
+
+    points: tuple
+    ratio: float
+    softening_drift: float
+    ultimate_drift: float
+
+    @property
+    def stiffness(self):
+        """Over the allowable shear. [1/rad]"""
+        drift, ratio = self.points[0]
+        return ratio / drift
+
+
+LEVELS = {"design": Level(((0.01, 1.5),), 1.5, 0.05, 0.103),
+          "mean": Level(((1 / 120, 1.4), (1 / 80, 1.8)), 2.8, 1 / 30, 0.115)}
+"""`design`: just passes the test of its multiplier; `mean`: mean of tested walls (sources: docs/house_files.md)."""
+TAIL = LEVELS["mean"].ultimate_drift / 0.0497
+"""Drift without shear over the drift at 80 % of the largest shear, the end of tests: that of `mean`. [-]"""
+SLIP_TOLERANCE = 0.1
+"""Of the nails' Pv = k dv. [-]"""
+ROUNDING = 1e-9
+"""Of shears. [-]"""
+LEAST_SHEAR = 100.0
+"""Of the largest shear of an envelope, below which it is taken to be in kN. [N/m]"""
+FORMS = ("envelope", "nails", "saws")
+"""Of a type's shear, in place of that of its multiplier."""
+FRICTION = 0.1
+"""Friction force over the largest shear. [-] (SAWS set of a wall of OpenSees' example; docs/theory.md, walls)"""
+RELOAD_SHARE = 0.65
+"""Share of the slack from which walls reload. [-] (likewise)"""
+RELOAD_TARGET = 1.1
+"""Drift at which reloading meets the envelope, over the largest one so far. [-] (likewise)"""
+
+
+@dataclass(frozen=True)
+class Cycles:
+    """Of a wall type, per metre of wall; names as those of WallCycles (yade_timber/joint_values.py)."""
+
+    friction_force: float  # [N/m]
+    reload_share: float = 0.0
+    reload_target: float = 1.0
+    steepness: float = 1.0  # unloading stiffness over the steepest slope of the envelope
+    pinched_stiffness: float = 0.0  # [N/m per rad]
+    reload_stiffness: float = 0.0  # [N/m per rad]
+    reload_drift: float = 0.0  # [rad]
+    reload_power: float = 0.0
+
+
+def check_wall_types(types):
+    """HouseError for none or several descriptions of a type's shear, and for points or drifts that do not ascend."""
+    for name, table in types.items():
+        path = f"wall_types.{name}"
+        if name in OPENINGS:
+            fail(table.where, path, "the name of an opening; choose another one")
+        forms = [key for key in FORMS if table[key] is not None]
+        if len(forms) > 1:
+            fail(table.at(forms[1]), path, f"give one of {', '.join(FORMS)}; got {' and '.join(forms)}")
+        if forms:
+            _refuse(table, path, ("strength", "stiffness"), forms[0])
+            _CHECKS[forms[0]](table, path)
+        else:
+            _check_rated(table, path)
+        _check_cycles(table, path)
+
+
+def _points(table):
+    """[(drift, shear)] of an envelope without the origin."""
+    points = [tuple(point) for point in table["envelope"]]
+    return points[1:] if points[:1] == [(0, 0)] else points
+
+
+def _refuse(table, path, keys, form):
+    for key in keys:
+        if table[key] is not None:
+            fail(table.at(key), path, f"'{key}' does not go with {form}, from which it follows; remove one of them")
+
+
+def _check_rated(table, path):
+    for key in ("strength", "stiffness"):
+        if not table["multiplier"] and table[key] is None:
+            fail(table.where, path, f"give multiplier or {key}, or envelope, or nails, or saws")
+    for level in LEVELS:
+        points = envelope(table, level)
+        drifts = [drift for drift, _ in points]
+        if drifts != sorted(set(drifts)):
+            ends = f"softening_drift {drifts[-2]:g} and ultimate_drift {drifts[-1]:g} must ascend"
+            fail(table.at("softening_drift"), path,
+                 f"strength / stiffness = {drifts[0]:.3g}, {ends}" if len(points) > 2 else ends)
+
+
+def _check_envelope(table, path):
+    _refuse(table, path, ("softening_drift",), "envelope")
+    points, where = _points(table), table.at("envelope")
+    drifts = [drift for drift, _ in points]
+    if not points or drifts[0] <= 0:
+        fail(where, f"{path}.envelope", "needs points [drift, shear] with drifts > 0; the origin may be left out")
+    if drifts != sorted(set(drifts)):
+        fail(where, f"{path}.envelope", f"the drifts must ascend, got {', '.join(f'{drift:.4g}' for drift in drifts)}")
+    if any(shear == 0 for _, shear in points[:-1]):
+        fail(where, f"{path}.envelope", "only the last point may have no shear")
+    largest = max(shear for _, shear in points)
+    if largest < LEAST_SHEAR:
+        fail(where, f"{path}.envelope",
+             f"the largest shear is {largest:g} N per m of wall, at least {LEAST_SHEAR:g}; kN are 1000 N")
+    if table["ultimate_drift"] is None and points[-1][1] == largest:
+        fail(where, f"{path}.envelope", "the last point has the largest shear; add points beyond it, or ultimate_drift,"
+             " at which there is no shear left")
+    if points[-1][1] == 0 and table["ultimate_drift"] is not None:
+        fail(table.at("ultimate_drift"), f"{path}.ultimate_drift",
+             "the last point of envelope has no shear already; remove one of them")
+    _check_end(table, path, drifts[-1], "the last drift of envelope")
+
+
+def _check_nails(table, path):
+    _refuse(table, path, ("softening_drift",), "nails")
+    nails, where = table["nails"], table["nails"].where
+    board, slip = nails["board"], nails["Pv"] / nails["k"]
+    if not nails["du"] > slip:
+        fail(nails.at("du"), f"{path}.nails.du", f"must be greater than Pv / k = {slip:g} m, got {nails['du']:g}")
+    if nails["dv"] is not None and abs(nails["dv"] / slip - 1) > SLIP_TOLERANCE:
+        fail(nails.at("dv"), f"{path}.nails.dv", f"must be Pv / k = {slip:g} m within 10 %, got {nails['dv']:g}")
+    if 2 * board["edge"] >= min(board["width"], *board["heights"]):
+        fail(board.at("edge"), f"{path}.nails.board.edge",
+             f"{board['edge']:g} m from the edge leaves no place for nails")
+    if nails["height"] is not None and nails["height"] < sum(board["heights"]):
+        fail(nails.at("height"), f"{path}.nails.height",
+             f"{nails['height']:g} m is less than the boards' heights, {sum(board['heights']):g} m")
+    wall = nailed_wall(nails)
+    if wall.ultimate_drift > 1:
+        fail(where, f"{path}.nails", f"the wall fails at a drift of {wall.ultimate_drift:.3g}; at most 1: check du")
+    _check_end(table, path, wall.ultimate_drift, "the drift at which the nails fail")
+
+
+def _check_end(table, path, last, name):
+    if table["ultimate_drift"] is not None and not table["ultimate_drift"] > last:
+        fail(table.at("ultimate_drift"), f"{path}.ultimate_drift",
+             f"must be greater than {name}, {last:.4g}, got {table['ultimate_drift']:g}")
+
+
+def _check_saws(table, path):
+    _refuse(table, path, (*SAWS_STATES, "friction_share", "softening_drift", "ultimate_drift"), "saws")
+    problem = saws.unmet_by(table["saws"])
+    if problem:
+        fail(table.at("saws"), f"{path}.saws", problem)
+
+
+def _check_cycles(table, path):
+    """Of a checked envelope."""
+    if table["friction_share"] is not None:
+        for key in SAWS_STATES:
+            if table[key] is not None:
+                fail(table.at(key), f"{path}.{key}", "does not go with friction_share, the law slip; remove one")
+        if table["residual_share"]:
+            fail(table.at("residual_share"), f"{path}.residual_share",
+                 "does not go with friction_share, the law slip; remove one of them")
+    for level in LEVELS:
+        largest = max(shear for _, shear in envelope(table, level))
+        if table["friction_force"] is not None and not table["friction_force"] < largest:
+            fail(table.at("friction_force"), f"{path}.friction_force",
+                 f"must be below the largest shear, {largest:.4g} N/m, got {table['friction_force']:g}")
+
+
+_CHECKS = {"envelope": _check_envelope, "nails": _check_nails, "saws": _check_saws}
+
+
+def has_rated_walls(data):
+    """Whether a house (data of its file) has walls whose envelope depends on the level."""
+    used = {name for structure in data["structures"].values() for line in structure["walls"] for name in line["type"]}
+    tables = [data["wall_types"][name] for name in used]
+    return any(all(table[form] is None for form in FORMS) and None in (table["strength"], table["stiffness"])
+               for table in tables)
+
+
+def envelope(table, level):
+    """[(drift, shear)] of a wall type from its first point to zero or residual shear. level: of LEVELS, for rated types
+    """
+    return _with_residual(_whole_envelope(table, level), table["residual_share"])
+
+
+def _whole_envelope(table, level):
+    if table["envelope"] is not None:
+        return _tested(table)
+    if table["nails"] is not None:
+        return _nailed(table)
+    if table["saws"] is not None:
+        return saws.envelope(table["saws"])
+    return _rated(table, LEVELS[level])
+
+
+def _with_residual(points, share):
+    """Points down to this share of the largest shear, which remains beyond the last one. points: the last has none"""
+    residual = share * max(shear for _, shear in points)
+    kept = list(points)
+    while len(kept) > 1 and kept[-2][1] <= residual * (1 + ROUNDING):
+        kept.pop()
+    (d0, f0), (d1, f1) = kept[-2:]
+    return [*kept[:-1], (d0 + (f0 - residual) / (f0 - f1) * (d1 - d0), residual)] if residual > 0 else points
+
+
+def cycles(table, level):
+    """Cycles of a wall type."""
+    if table["saws"] is not None:
+        return Cycles(**saws.cycles(table["saws"]))
+    largest = max(shear for _, shear in envelope(table, level))
+    given = {key: default if table[key] is None else table[key]
+             for key, default in (("friction_force", FRICTION * largest), ("reload_share", RELOAD_SHARE),
+                                  ("reload_target", RELOAD_TARGET))}
+    return Cycles(**given)
+
+
+def multiplier(table):
+    """Wall multiplier of a type: its own, else its allowable shear over that of 1. [-]
+
+    Allowable: of nails as in nails.py, else the lesser of the shear at 1/120 and two thirds of the largest one.
+    """
+    if table["multiplier"] is not None:
+        return table["multiplier"]
+    if table["nails"] is not None:
+        return nailed_wall(table["nails"]).allowable / table["nails"]["board"]["width"] / ALLOWABLE
+    drifts, shears = np.transpose([(0.0, 0.0), *envelope(table, "design")])
+    return float(min(np.interp(RATED_DRIFT, drifts, shears), 2 / 3 * shears.max())) / ALLOWABLE
+
+
+def _rated(table, level):
+    """Of a multiplier; with an own strength or stiffness: bilinear."""
+    allowable = ALLOWABLE * (table["multiplier"] or 0.0)
+    softening, ultimate = (getattr(level, key) if table[key] is None else table[key]
+                           for key in ("softening_drift", "ultimate_drift"))
+    if table["strength"] is None and table["stiffness"] is None:
+        rising = [(drift, ratio * allowable) for drift, ratio in level.points]
+        return [*_concave(rising, (softening, level.ratio * allowable)), (ultimate, 0.0)]
+    strength = level.ratio * allowable if table["strength"] is None else table["strength"]
+    stiffness = level.stiffness * allowable if table["stiffness"] is None else table["stiffness"]
+    return [(strength / stiffness, strength), (softening, strength), (ultimate, 0.0)]
+
+
+def _concave(rising, peak):
+    """The points up to the peak without those below a line between two others: early strength makes it stiffer."""
+    kept = [(0.0, 0.0)]
+    for drift, shear in [*(point for point in rising if point[1] == peak[1] or point[0] < peak[0]), peak]:
+        while len(kept) > 1 and _slope(kept[-2], kept[-1]) <= _slope(kept[-1], (drift, shear)):
+            kept.pop()
+        kept.append((drift, shear))
+    return kept[1:]
+
+
+def _slope(a, b):
+    return (b[1] - a[1]) / (b[0] - a[0]) if b[0] != a[0] else float("-inf")
+
+
+def _tested(table):
+    """Points of a test; beyond them the line from the largest shear, unless `ultimate_drift` says otherwise."""
+    points = _points(table)
+    (drift, shear), peak = points[-1], max(points, key=lambda point: point[1])
+    if shear == 0:
+        return points
+    end = table["ultimate_drift"]
+    return [*points, (drift + shear * (drift - peak[0]) / (peak[1] - shear) if end is None else end, 0.0)]
+
+
+def _nailed(table):
+    """Elastic and plastic up to the nails' failure; then as the mean of tested walls."""
+    wall, width = nailed_wall(table["nails"]), table["nails"]["board"]["width"]
+    strength = wall.strength / width
+    end = TAIL * wall.ultimate_drift if table["ultimate_drift"] is None else table["ultimate_drift"]
+    return [(wall.yield_drift, strength), (wall.ultimate_drift, strength), (end, 0.0)]

@@ -1,0 +1,227 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The player: one HTML file that plays a recorded run, or two runs side by side in step. Needs no YADE, the page no
+network.
+
+Positions are stored in steps of POSITION_STEP, orientations in steps of ORIENTATION_STEP: a centroid is off by at most
+0.44 mm, an orientation by at most 0.004 degrees. Between two frames the page interpolates (linear, slerp).
+
+Security: a run's data are base64 text; the page shows its texts as text nodes only. The content-security policy of the
+page permits its own script and style, by their hashes, and nothing else.
+"""
+import base64
+import hashlib
+from pathlib import Path
+
+import numpy as np
+from matplotlib.colors import to_hex
+from yade_timber.atomic_write import write_text
+
+from ..base import colors
+from ..base.errors import RunError
+from ..base.html import DATA, html
+from ..recording import frames, peaks
+from ..recording.events import Event, LevelPassed, ShakingBegins, StrongestShaking
+from ..recording.summary import Summary, collapse_time
+from ..recording.walls import wall_sheets
+from ..text import english, japanese
+from ..text.english import cut_line
+from .key_times import FIRST_DAMAGE, STRONGEST, first_shown, named, onset, strongest_shaking
+from .packing import pack, times
+from .provenance import provenance
+
+POLICY = "default-src 'none'; script-src '{script}'; style-src '{style}'; base-uri 'none'; form-action 'none'"
+POSITION_STEP = 0.5e-3
+"""Of positions of elements. [m]"""
+ORIENTATION_STEP = 1 / 32767
+"""Of the components of quaternions. [-]"""
+
+
+def make(runs, path):
+    """Write the page; returns its path. runs: one or two (file, Frames); the tables beside the file give peaks.
+
+    Raises RunError when a run cannot be shown, OSError when the page cannot be written.
+    """
+    if not 1 <= len(runs) <= 2:
+        raise RunError(f"{len(runs)} runs: the player shows one, or compares two")
+    style, script = asset("page.css"), asset("player.js")
+    page = html(
+        "player/page.html",
+        policy=POLICY.format(script=digest(script), style=digest(style)),
+        title=" / ".join(plain(run.title) for _, run in runs),
+        style=style,
+        data=[packed(source, run) for source, run in runs],
+        script=script,
+    )
+    write_text(path, page)
+    return path
+
+
+def asset(name):
+    return (DATA / "player" / name).read_text(encoding="utf-8")
+
+
+def digest(text):
+    """Hash of an inline script or style for the content-security policy."""
+    return "sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
+
+
+def plain(text):
+    """A text from data on one line that UTF-8 can hold."""
+    return cut_line(text).encode("utf-8", "replace").decode()
+
+
+def packed(source, run):
+    """Text of a run for the page."""
+    if not len(run.time):
+        raise RunError(f"{source}: it has no frames")
+    try:
+        own = run.summary and Path(source).name == frames.NAME  # then the tables of the run are beside it
+        return pack(info(run, peaks.read(Path(source).parent) if own else peaks.Peaks()), arrays(run))
+    except ValueError as problem:
+        raise RunError(f"{source}: {problem}") from None
+
+
+# --- texts ------------------------------------------------------------------------------------------------------------
+
+
+def info(run, largest):
+    """Texts of the page, and the description of its arrays. largest: Peaks of the run"""
+    e, j = run.elements, run.joints
+    return {
+        "title": plain(run.title),
+        "result": (plain(english.sentence(run.summary)) if run.summary
+                   else f"Not ended yet: the first {run.time[-1]:.1f} s"),
+        "japanese": ({"title": plain(japanese.title(run.summary)), "result": plain(japanese.result(run.summary)),
+                      "origin": plain(provenance(run, japanese))} if isinstance(run.summary, Summary) else None),
+        "origin": plain(provenance(run)),
+        "elements": [{"name": plain(name), "kind": plain(kind), "group": plain(group), "storey": int(storey),
+                      **uplift(largest, name)}
+                     for name, kind, group, storey in zip(e.name, e.kind, e.group, e.storey)],
+        "joints": len(j.name),
+        "sheets": wall_sheets(j),
+        "joint_list": [
+            {"kind": plain(kind), "place": plain(english.joint_place(kind, storey, side)), **forces(largest, name)}
+            for name, kind, storey, side in zip(j.name, j.kind, j.storey, j.side)
+        ],
+        "feet": feet(run),
+        "breaks": breaks(run),
+        "kinds": kinds({plain(kind) for kind in e.kind}),
+        "motion": run.motion and {"dt": run.motion.dt, "start": run.motion.start, "onset": onset(run.motion)},
+        "first": first_shown(run),
+        "drifts": [{"key": direction, "storey": storey} for storey, direction, _ in drifts(run)],
+        "levels": [{"value": value, "text": text.split()[0]} for value, text in english.DRIFT_LINES],
+        "events": events(run),
+        "main": main_event(run),
+        "collapse": collapse_time(run.summary),
+        "until": run.summary.quantities.until_s if isinstance(run.summary, Summary) else None,
+    }
+
+
+def forces(largest, joint):
+    """{'pull', 'shear'}: largest forces of a joint [N]; empty when they are not known."""
+    return {key: round(value, 1) for key, value in zip(("pull", "shear"), largest.forces.get(joint, ()))}
+
+
+def uplift(largest, element):
+    """{'uplift'}: largest uplift of a column's foot [m]; empty for other elements, and when it is not known."""
+    return {"uplift": round(largest.uplift[element], 6)} if element in largest.uplift else {}
+
+
+def feet(run):
+    """Numbers of the joints at the feet of columns: the first element is a column, with its centroid above."""
+    e, j = run.elements, run.joints
+    below = frames.rotated(np.asarray(e.orientation)[j.a], j.anchor)[:, 2] < 0
+    return [k for k, kind in enumerate(j.kind)
+            if below[k] and kind.startswith("column_") and e.kind[j.a[k]] == "column"]
+
+
+def breaks(run):
+    """[{joint, time [s], cause, force [N], springs}] of each broken joint: the first break, and the number of all."""
+    firsts, table = {}, run.breaks or {"joint": []}
+    for number, joint in enumerate(map(int, table["joint"])):
+        if 0 <= joint < len(run.joints.name):
+            first = {"joint": joint, "time": float(table["time"][number]), "cause": plain(table["cause"][number]),
+                     "force": float(table["force"][number]), "springs": 0}
+            firsts.setdefault(joint, first)["springs"] += 1
+    return list(firsts.values())
+
+
+def main_event(run):
+    """Time around which the page plays slowly [s]: collapse, drift of 1/10, first fall, largest drift; else None."""
+    return next((float(time) for time, reason in named(run) if reason not in (STRONGEST, FIRST_DAMAGE)), None)
+
+
+def kinds(present):
+    """[{kind, color}] of the kinds of elements that occur, from the roof downwards."""
+    ordered = [kind for kind in reversed(colors.KINDS) if kind in present] + sorted(present - set(colors.KINDS))
+    return [{"kind": kind, "color": to_hex(colors.KINDS.get(kind, colors.OTHER))} for kind in ordered]
+
+
+def events(run):
+    """[{time [s], text, japanese}] of the events within the run, in the order of time."""
+    recorded = run.summary.events if run.summary else []
+    shown = [event for event in (*shaking(run), *passed_levels(run), *recorded) if 0 <= event.time_s <= run.time[-1]]
+    shown.sort(key=lambda event: (event.time_s, event.kind, english.event(event)))
+    return [{"time": float(event.time_s), "text": plain(english.event(event)), "japanese": plain(japanese.event(event))}
+            for event in shown]
+
+
+def shaking(run):
+    """Events of the ground motion."""
+    if run.motion and run.motion.acceleration.any():
+        yield Event(onset(run.motion), ShakingBegins())
+        if run.summary and getattr(run.summary, "missed_shaking", None) is None:
+            yield Event(strongest_shaking(run), StrongestShaking())
+
+
+def passed_levels(run):
+    """Events when a storey drift first passes a level; the last level, the tilt, is a recorded event."""
+    if not drifts(run):
+        return
+    largest = run.history.largest_drift()
+    for value, _ in english.DRIFT_LINES[:-1]:
+        if (largest > value).any():
+            yield Event(run.history.time[np.argmax(largest > value)], LevelPassed(value))
+
+
+# --- numbers ----------------------------------------------------------------------------------------------------------
+
+
+def arrays(run):
+    """{name: (values, step)} for the page; a row is a time, vertex, face, joint or sample."""
+    shapes = {name: (values, 1e-4 if name == "vertices" else 1) for name, values in frames.shapes(run.elements).items()}
+    return {**shapes, **joints(run.joints), **series(run), **curves(run)}
+
+
+def joints(table):
+    return {"a": (table.a, 1), "b": (table.b, 1),
+            "strength": (np.where(np.isfinite(table.strength), np.minimum(table.strength, 1e9), 0), 1),
+            "anchor": (table.anchor, 1e-4), "springs": (table.springs, 1), "damaged": (table.damaged, 1)}
+
+
+def series(run):
+    orientation = continuous(np.asarray(run.orientation, float))
+    return {"time": times(run.time), "positions": (run.position, POSITION_STEP),
+            "orientations": (orientation[..., [1, 2, 3, 0]], ORIENTATION_STEP),
+            "loads": (np.minimum(run.load, 1.5), 0.01), "broken": (run.broken, 1)}
+
+
+def continuous(orientation):
+    """(F, N, 4) unit quaternions with signs that do not jump from frame to frame."""
+    jumps = np.sum(orientation[1:] * orientation[:-1], axis=2) < 0
+    signs = np.concatenate([np.ones((1, orientation.shape[1])), np.cumprod(np.where(jumps, -1, 1), axis=0)])
+    return orientation * signs[..., None]
+
+
+def drifts(run):
+    """[(storey, direction, (F,) drift)] of a run with a history, else empty."""
+    return run.history.drifts() if run.history and run.history.samples else []
+
+
+def curves(run):
+    storey_drifts = drifts(run)
+    time = run.history.time if storey_drifts else np.empty(0)
+    values = np.transpose([values for _, _, values in storey_drifts]) if storey_drifts else np.empty((0, 0))
+    motion = ({"acceleration": (run.motion.acceleration, 1e-3), "displacement": (run.motion.displacement, 1e-4)}
+              if run.motion else {})
+    return {"history_time": times(time), "drifts": (np.clip(values, -10, 10), 1e-5), **motion}

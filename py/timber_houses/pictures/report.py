@@ -1,0 +1,241 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Report of a run on one A4 page: report.html, self-contained, and report.pdf where Chromium is installed."""
+import base64
+import io
+import os
+import shlex
+import shutil
+import subprocess
+import tempfile
+from pathlib import Path
+
+import numpy as np
+from yade_timber.atomic_write import write_text, written_whole
+
+from ..base.errors import RunError
+from ..base.gravity import weight_of
+from ..base.html import html
+from ..base.options import words
+from ..motion import GroundMotion, pga, pgv
+from ..motion.measures import stated_intensity
+from ..recording import frames as recording
+from ..recording import verdict
+from ..recording.failures import first_failures
+from ..text.english import counted, directed, direction_name, period_text, sentence, storey_name
+from ..text.lines import before, lines
+from . import REPORT, fonts, quantities, report_pictures
+from .panels import panels
+from .style import default_style
+
+PAGE, PDF = REPORT
+JOINTS_SHOWN = 8
+"""Rows of the table of joints."""
+BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+PATIENCE = 120.0
+"""Longest wait for the browser. [s]"""
+COLORS = {"undamaged": "#009E73", "repairable": "#E69F00", "unsafe": "#D55E00", "collapsed": "#222222"}
+CAVEATS = (
+    "Members are rigid: they neither bend nor split; only joints and contacts deform.",
+    ("Snow steadies a braced house in this model, since its weight holds the floors down on the braces. In practice"
+     " snow adds to the earthquake load and houses under snow fare worse. Do not conclude that snow is good for a"
+     " house."),
+    ("Once a house rocks, single numbers scatter by a factor of up to 2.5 between equal runs. Compare houses under"
+     " several motions."),
+    ("Strengths, friction and stiffnesses are those of the house file, some of them assumptions. The report certifies"
+     " no house; ask an engineer."),
+)
+"""Limits of the model that a reader of one result must know (docs/limits.md)."""
+LIGHT = 1.5
+"""Weight per floor area below which a house is lighter than real ones. [kN/m2]"""
+
+
+def write(folder):
+    """Write report.html, and report.pdf if there is a browser, into a run's folder; returns the paths. RunError."""
+    folder = Path(folder)
+    results = quantities.read(folder)
+    frames = recording.load(folder / recording.NAME,
+                            missing="the report needs recorded frames: run without --no-frames")
+    if frames.summary is None:
+        raise RunError(f"{folder / recording.NAME}: of a run that has not ended; continue it with --resume")
+    write_text(folder / PAGE, page(frames, results))
+    return [folder / PAGE, *print_pdf(folder / PAGE, folder / PDF)]
+
+
+def page(frames, results):
+    """Text of the page. results: quantities.Results"""
+    summary = results.summary
+    failures = first_failures(frames) if summary.collapsed else []
+    return html(
+        "report.html",
+        title=frames.title,
+        color=COLORS[summary.verdict],
+        sentence=sentence(summary),
+        house=house(frames, summary, failures),
+        plans=picture(report_pictures.plans(frames, failures)),
+        motion=motion(frames, summary),
+        spectra=picture(report_pictures.motion(frames)) if frames.motion else None,
+        periods=summary.quantities.modes.before is not None,
+        until=before(summary.quantities),
+        storeys=storeys(summary),
+        shots=picture(*report_pictures.shots(frames)),
+        lines=lines(summary),
+        failures=failed_joints(frames, results, failures),
+        others=others(frames, results) if failures else None,
+        joints=joints(results),
+        limits="; ".join(f"1/{round(1 / limit.drift)} {limit.name} ({limit.source})" for limit in verdict.LIMITS),
+        caveats=caveats(summary),
+        versions=versions(summary),
+        command=command(summary.made_from["options"]),
+    )
+
+
+@default_style()
+def picture(figure, part=None):
+    """A figure, or a part of it (Bbox [inch]), as the address of an image."""
+    data = io.BytesIO()
+    fonts.apply(figure)
+    figure.savefig(data, format="png", dpi=report_pictures.DPI, bbox_inches=part, metadata={"Software": None})
+    return f"data:image/png;base64,{base64.b64encode(data.getvalue()).decode()}"
+
+
+# --- parts of the page ------------------------------------------------------------------------------------------------
+
+
+def house(frames, summary, failures):
+    """Meaning of the marks in the plans, numbers of members, weight, natural periods, seismic index."""
+    kinds = frames.elements.kind
+    counts = {"column": kinds.count("column"), "brace": kinds.count("brace"), "walled bay": len(panels(frames, 0))}
+    (_, counts["joint"]), (_, counts["wall sheet"]) = summary.joints_and_sheets
+    numbers = ", ".join(counted(count, kind) for kind, count in counts.items() if count)
+    marks = {"blue: braces (thin end: foot)": counts["brace"],
+             "green: walls (dotted: with an opening)": counts["walled bay"],
+             "orange: joints broken from the start": any(frames.joints.damaged),
+             "numbers: first failures": failures}
+    legend = "; ".join(["Plans, north up", *(mark for mark, occurs in marks.items() if occurs)])
+    periods = ", ".join(f"{direction_name(axis)} {period_text(mode)}" for axis in ("ns", "ew")
+                        if (mode := summary.main_mode("before", axis)))
+    index = f"By the diagnosis of engineers: {summary.diagnosis.sentence}. {summary.diagnosis.disagreement}"
+    natural = f" Natural periods {periods}." if periods else ""
+    return f"{legend}. {numbers}. {weight(summary.weight)}{natural} {index}"
+
+
+def storeys(summary):
+    """Rows of the table of the storeys: weight above and shear."""
+    return [
+        {"name": storey_name(name), "weight": f"{weight_of(storey.mass_above_kg):.0f} kN",
+         "shear": ", ".join("-" if value is None else f"{value:.2f}" for value in storey.shear_coefficient.values())}
+        for name, storey in summary.quantities.storeys.items()
+    ]
+
+
+def weight(weights):
+    """'Weight 83 kN, 0.70 kN per m² of 119 m² of floor; snow 59 kN.' of a Weight."""
+    per_area = ("" if weights.per_floor_area_kn_m2 is None
+                else f", {weights.per_floor_area_kn_m2:.2f} kN per m² of {weights.floor_area_m2:.0f} m² of floor")
+    snow = f"; snow {weights.snow_kn:.0f} kN" if weights.snow_kn else ""
+    return f"Weight {weights.total_kn:.0f} kN{per_area}{snow}."
+
+
+def motion(frames, summary):
+    """Record, peaks and intensity of the ground motion; None without an earthquake."""
+    if frames.motion is None:
+        return None
+    applied = GroundMotion(frames.motion.dt, frames.motion.acceleration)
+    peaks = ", ".join(f"{name} {pga(applied, key):.0f}"
+                      for name, key in (("N-S", "ns"), ("E-W", "ew"), ("up-down", "ud")))
+    intensity = stated_intensity(applied)
+    stated = "" if intensity is None else f", JMA intensity {intensity:.1f}"
+    scale = f", times {summary.record.scale:g}" if summary.record.scale != 1 else ""
+    return f"{summary.record.source}{scale}: PGA {peaks} gal, PGV {pgv(applied):.0f} cm/s{stated}."
+
+
+def joints(results):
+    units = {"utilisation [-]": (1, 2), "pull [N]": (1e-3, 1), "shear [N]": (1e-3, 1), "opening [m]": (1e3, 0)}
+    return [{"joint": joint_name(row["joint"]), "state": row["state"],
+             "numbers": [f"{factor * float(row[column]):.{digits}f}" for column, (factor, digits) in units.items()]}
+            for row in results.joints[:JOINTS_SHOWN]]
+
+
+def failed_joints(frames, results, failures):
+    """Rows of the table of the first failures of a house that has collapsed."""
+    by_name, joint = {row["joint"]: row for row in results.joints}, frames.joints
+    rows = []
+    for failure in failures:
+        number = failure.joint
+        row, storey = by_name[joint.name[number]], joint.storey[number]
+        rows.append({
+            "time": f"{failure.time:.2f}",
+            "joint": joint_name(row["joint"]),
+            "place": f"{joint.kind[number].replace('_', '-')}, {'storey ' * storey.isdigit()}{storey},"
+                     f" {joint.side[number].replace('+', ', ')}",
+            "cause": failure.cause,
+            "drift": "" if failure.drift is None else directed(failure.drift, failure.direction),
+            "forces": [f"{float(row[column]) / 1e3:.1f}" for column in ("pull [N]", "shear [N]", "strength [N]")],
+        })
+    return rows
+
+
+def others(frames, results):
+    """How far the joints were when the fall of a house that has collapsed began."""
+    fall = results.summary.quantities.until_s
+    broken = frames.broken[max(0, int(np.searchsorted(frames.time, fall)) - 1)] > 0
+    names = {name for name, fails in zip(frames.joints.name, broken) if fails}
+    rows = [row for row in results.joints if np.isfinite(float(row["strength [N]"])) and row["state"] != "before"]
+    loads = np.array([float(row["utilisation [-]"]) for row in rows if row["joint"] not in names])
+    failed = len(rows) - len(loads)
+    losses = f"{failed} of {len(rows)} joints that can break had failed, those of walls included"
+    about = f"Pull and shear: largest before {fall:.2f} s, when the fall began. Then {losses}"
+    if not len(loads):
+        return f"{about}; of the others none is left."
+    return (f"{about}; of the others {(loads > 0.9).sum()} had used more than 0.9 of their strength, half of them more"
+            f" than {np.median(loads):.2f}.")
+
+
+def joint_name(name):
+    """'main.column1.x0y0 | beam1.EW.y0': without the second structure if it is the first. Walls have one name."""
+    first, _, second = name.partition("|")
+    second = second.removeprefix(f"{first.partition('.')[0]}.")
+    return f"{first} | {second}" if second else first
+
+
+def caveats(summary):
+    per_area = summary.weight.per_floor_area_kn_m2
+    light = (f"The house without snow weighs {per_area:.1f} kN per m² of floor. Real houses with tiles, walls and live"
+             " load weigh 2.5 to 3 kN per m².")
+    return [*([light] if per_area is not None and per_area < LIGHT else []), *CAVEATS]
+
+
+def versions(summary):
+    """Versions of the run's programs and files, and its time step."""
+    versions, origin = summary.versions, summary.made_from
+    return (f"yade-timber {versions.package}, YADE {versions.yade}, package {origin['package']}, files"
+            f" {origin['files']}; time step {summary.dt:g} s.")
+
+
+def command(options):
+    """Command that repeats a run of some options; None for the house of a town and for a motion from Python."""
+    if not options.keys().isdisjoint(("town", "ground_motion")):
+        return None
+    name = options.get("name")
+    changed = {key: value for key, value in options.items() if key != "name"}
+    return shlex.join(["yade", "-n", "-x", f"scripts/{name or 'house'}.py", *words(changed, name is not None)])
+
+
+# --- PDF --------------------------------------------------------------------------------------------------------------
+
+
+def print_pdf(source, path):
+    """Print a page as PDF with Chromium; returns [path], or [] without a browser or when it fails."""
+    browser = next(filter(None, map(shutil.which, BROWSERS)), None)
+    if browser is None:
+        return []
+    sandbox = [] if os.geteuid() else ["--no-sandbox"]  # Chromium has none for root; the page is our own
+    try:
+        with written_whole(path) as part, tempfile.TemporaryDirectory() as profile:
+            options = ["--headless=new", *sandbox, "--disable-gpu", f"--user-data-dir={profile}",
+                       "--no-pdf-header-footer", f"--print-to-pdf={part}"]
+            subprocess.run([browser, *options, Path(source).resolve().as_uri()], check=True, capture_output=True,
+                           timeout=PATIENCE)
+    except subprocess.SubprocessError:
+        return []
+    return [path]

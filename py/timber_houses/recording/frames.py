@@ -1,0 +1,393 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The recorded frames of a run, frames.h5: the source of pictures, player and exports.
+
+Frame of all vectors: x east, y north, z up, fixed to the ground. N elements, J joints, F frames. The file (HDF5):
+
+attributes   format, title (house and loads), scenario, model, version (of the package), ended (bool), run (fingerprint
+             of the run's identity); of an ended run also summary: the text of summary.json
+/elements    name, kind, group (structure: 'main', 'entrance', ...), material (N,) strings; storey (N,) int, 0 below the
+             first; fixed (N,) bool; position (N, 3) [m], orientation (N, 4) w, x, y, z: before the first step;
+             vertices (V, 3) [m], body frame (origin in the centroid), those of element k in rows vertex_start[k] :
+             vertex_start[k + 1]; faces (C,): vertex numbers within the element, counter-clockwise from outside, those
+             of face m in face_start[m] : face_start[m + 1]; the faces of element k are element_start[k] :
+             element_start[k + 1]
+/joints      name, kind, storey ('1', '2', ... or the structure), side ('north', 'north+east', ..., 'inside') (J,)
+             strings; a, b (J,) element numbers; anchor (J, 3) [m]: mean of the spring points in the body frame of a;
+             springs (J,): their number; damaged (J,) bool: broken before the start; strength (J,) [N], may be infinite
+/frames      time (F,) [s]; position (F, N, 3) [m] and orientation (F, N, 4) w, x, y, z, float32; load (F, J) float32:
+             largest spring force by strength (of a joint that breaks as one: the sum); broken (F, J) uint8: number of
+             broken springs
+/contacts    time (K,) [s], every CONTACT_EVERY-th frame and the last; start (K + 1,): the points of time k are
+             start[k] : start[k + 1]; pair (P, 2) element numbers; position (P, 3) [m]; force (P, 3) [N] on the second
+             element, float32
+/motion      only with an earthquake: attributes dt [s], start [s]; acceleration (M, 3) [m/s2] as applied, displacement
+             (M, 3) [m] of the ground
+/history     of an ended run: columns (names with units), rows; the table of history.csv
+/breaks      of an ended run: time [s], joint, spring, cause, force [N]; one entry for each spring that broke
+
+Frames are recorded FRAMES_PER_SECOND times per simulated second from t = 0, and at the last step. Until the run has
+ended, the frames and contacts up to its last checkpoint are in frames.log beside the file (frame_log.py), which `load`
+reads, too.
+"""
+import io
+import json
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+
+import h5py
+import numpy as np
+from yade_timber.atomic_write import write_bytes
+
+from ..base.errors import RunError
+from ..base.json_types import encode
+from ..base.time_step import rest_stride
+from . import append_log, frame_log
+from .history import History
+from .summary import ANEW, Summary, parse
+from .table_file import FAULTS, Group, opened
+
+NAME = "frames.h5"
+FORMAT = "yade-timber frames 1"
+FRAMES_PER_SECOND = 20
+CONTACT_EVERY = 10
+ATTRIBUTES = ("title", "scenario", "model", "version", "run")
+LAYOUT = {
+    "": Group(attributes={"format": "text", **dict.fromkeys(ATTRIBUTES, "text"), "ended": "flag", "summary": "text"}),
+    "elements": Group({
+        **dict.fromkeys(("name", "kind", "group", "material"), ("text", "N")), "storey": ("whole", "N"),
+        "fixed": ("flag", "N"), "position": ("number", "N", 3), "orientation": ("number", "N", 4),
+        "vertices": ("number", "V", 3), "vertex_start": ("whole", "N + 1"), "faces": ("whole", "C"),
+        "face_start": ("whole", "faces + 1"), "element_start": ("whole", "N + 1")
+    }),
+    "joints": Group({
+        **dict.fromkeys(("name", "kind", "storey", "side"), ("text", "J")), "a": ("whole", "J"), "b": ("whole", "J"),
+        "anchor": ("number", "J", 3), "springs": ("whole", "J"), "damaged": ("flag", "J"), "strength": ("number", "J")
+    }),
+    "frames": Group({
+        "time": ("number", "F"), "position": ("number", "F", "N", 3), "orientation": ("number", "F", "N", 4),
+        "load": ("number", "F", "J"), "broken": ("whole", "F", "J")
+    }),
+    "contacts": Group({
+        "time": ("number", "K"), "start": ("whole", "K + 1"), "pair": ("whole", "P", 2), "position": ("number", "P", 3),
+        "force": ("number", "P", 3)
+    }),
+    "motion": Group({"acceleration": ("number", "M", 3), "displacement": ("number", "M", 3)},
+                    {"dt": "number", "start": "number"}),
+    "history": Group({"columns": ("text", "columns"), "rows": ("number", "samples", "columns")}),
+    "breaks": Group({"time": ("number", "B"), "joint": ("whole", "B"), "spring": ("whole", "B"), "cause": ("text", "B"),
+                     "force": ("number", "B")}),
+}
+"""What the file can hold, as of `table_file`."""
+
+
+def steps_between(dt):
+    """Steps of dt [s] between two frames: whole strides, so that a step with a frame is computed at rest, too."""
+    stride = rest_stride(dt)
+    return stride * max(1, round(1 / (FRAMES_PER_SECOND * stride * dt)))
+
+
+class _ShortRepr:
+    """Prints sizes instead of contents."""
+
+    def __repr__(self):
+        sizes = (f"{name}={f'<{len(value)}>' if hasattr(value, '__len__') else value}"
+                 for name, value in vars(self).items())
+        return f"{type(self).__name__}({', '.join(sizes)})"
+
+
+@dataclass(repr=False)
+class Elements(_ShortRepr):
+    """Names and shapes, as in /elements; vertices and faces: a list per element."""
+
+    name: list
+    kind: list
+    group: list
+    material: list
+    storey: np.ndarray
+    fixed: np.ndarray
+    position: np.ndarray
+    orientation: np.ndarray
+    vertices: list
+    faces: list
+
+
+@dataclass(repr=False)
+class Joints(_ShortRepr):
+    """As in /joints."""
+
+    name: list
+    kind: list
+    storey: list
+    side: list
+    a: np.ndarray
+    b: np.ndarray
+    anchor: np.ndarray
+    springs: np.ndarray
+    damaged: np.ndarray
+    strength: np.ndarray
+
+
+@dataclass(repr=False)
+class Contacts(_ShortRepr):
+    """As in /contacts; pair, position, force: a list with an array per time."""
+
+    time: list = field(default_factory=list)
+    pair: list = field(default_factory=list)
+    position: list = field(default_factory=list)
+    force: list = field(default_factory=list)
+
+
+@dataclass(repr=False)
+class Motion(_ShortRepr):
+    """As in /motion."""
+
+    dt: float
+    start: float
+    acceleration: np.ndarray
+    displacement: np.ndarray
+
+    @property
+    def time(self):
+        return self.start + self.dt * np.arange(len(self.acceleration))
+
+    def first(self, acceleration):
+        """Time at which the ground first has an acceleration [m/s2] in any direction, or None. [s]"""
+        reached = np.flatnonzero(np.abs(self.acceleration).max(1) >= acceleration)
+        return float(self.time[reached[0]]) if len(reached) else None
+
+
+@dataclass(repr=False)
+class Frames:
+    """The file's content. time, position, orientation, load, broken: arrays, or lists during a run.
+
+    summary: Summary, of a town TownSummary; history: History; breaks: dictionary of lists; None before the run's end.
+    """
+
+    title: str
+    scenario: str
+    model: str
+    version: str
+    elements: Elements
+    joints: Joints
+    time: list = field(default_factory=list)
+    position: list = field(default_factory=list)
+    orientation: list = field(default_factory=list)
+    load: list = field(default_factory=list)
+    broken: list = field(default_factory=list)
+    contacts: Contacts = field(default_factory=Contacts)
+    motion: Motion = None
+    summary: Summary = None
+    history: History = None
+    breaks: dict = None
+    run: str = ""
+
+    def __repr__(self):
+        until = f"up to {self.time[-1]:g} s" if len(self.time) else "empty"
+        sizes = f"{len(self.elements.name)} elements, {len(self.joints.name)} joints, {len(self.time)} frames"
+        return f"<Frames: {self.title}, {sizes}, {until}, {'ended' if self.summary else 'not ended'}>"
+
+    def corners(self, frame, element):
+        """(n, 3) corners of an element in a frame, world frame [m]."""
+        return placed(self.elements.vertices[element], self.position[frame][element], self.orientation[frame][element])
+
+    def corners_at_start(self, element):
+        """(n, 3) corners of an element before the first step, world frame [m]."""
+        e = self.elements
+        return placed(e.vertices[element], e.position[element], e.orientation[element])
+
+    def all_corners(self, frame=None):
+        """List of the (n, 3) corners of every element in a frame, or (None) before the first step, world frame [m]."""
+        e = self.elements
+        position, orientation = ((e.position, e.orientation) if frame is None
+                                 else (self.position[frame], self.orientation[frame]))
+        counts = [len(vertices) for vertices in e.vertices]
+        body = np.repeat(np.arange(len(counts)), counts)
+        corners = np.asarray(position, float)[body] + rotated(np.asarray(orientation)[body], np.concatenate(e.vertices))
+        return np.split(corners, np.cumsum(counts)[:-1])
+
+    def joint_places(self, frame):
+        """(J, 3) positions of the joints on their first elements, world frame [m]."""
+        a = self.joints.a
+        return np.asarray(self.position[frame])[a] + rotated(np.asarray(self.orientation[frame])[a], self.joints.anchor)
+
+    def joint_states(self, frame):
+        """'whole', 'partly', 'broken' or 'before' (the start), for each joint. frame: a number, or a slice"""
+        j = self.joints
+        state = np.where(np.asarray(self.broken[frame]) == 0, "whole",
+                         np.where(self.broken[frame] >= j.springs, "broken", "partly"))
+        return np.where(j.damaged, "before", state)
+
+    def at(self, time):
+        """Number of the frame nearest to a time [s]."""
+        return int(np.argmin(np.abs(np.asarray(self.time) - time)))
+
+    @cached_property
+    def shown(self):
+        """Numbers of the elements that pictures show: all but the ground."""
+        return [k for k, kind in enumerate(self.elements.kind) if kind != "ground"]
+
+
+def rotated(q, v):
+    """Vectors (..., 3) rotated by unit quaternions (..., 4) w, x, y, z."""
+    q, v = np.asarray(q, float), np.asarray(v, float)
+    u = q[..., 1:]
+    t = 2 * np.cross(u, v)
+    return v + q[..., :1] * t + np.cross(u, t)
+
+
+def placed(vertices, position, orientation):
+    """(n, 3) vertices of a body frame in the world frame."""
+    return np.asarray(position, float) + rotated(np.asarray(orientation)[None], vertices)
+
+
+# --- writing ----------------------------------------------------------------------------------------------------------
+
+
+def save(path, frames):
+    """Write the file. A kill at any moment leaves a complete file, the earlier or the new one. Raises OSError."""
+    memory = io.BytesIO()  # HDF5 crashes where it cannot write
+    with h5py.File(memory, "w") as file:
+        file.attrs.update({"format": FORMAT, **{name: getattr(frames, name) for name in ATTRIBUTES},
+                           "ended": frames.summary is not None})
+        if frames.summary is not None:
+            file.attrs["summary"] = json.dumps(encode(frames.summary))
+        plain = {name: values for name, values in vars(frames.elements).items() if name not in ("vertices", "faces")}
+        _save_group(file.create_group("elements"), plain | shapes(frames.elements))
+        _save_group(file.create_group("joints"), vars(frames.joints))
+        _save_group(file.create_group("frames"), _series(frames))
+        _save_contacts(file.create_group("contacts"), frames.contacts)
+        if frames.motion:
+            group = file.create_group("motion")
+            group.attrs.update(dt=frames.motion.dt, start=frames.motion.start)
+            _save_group(group, {"acceleration": frames.motion.acceleration, "displacement": frames.motion.displacement})
+        if frames.history is not None:
+            _save_group(file.create_group("history"), frames.history._asdict())
+        if frames.breaks is not None:
+            _save_group(file.create_group("breaks"), frames.breaks)
+    write_bytes(path, memory.getbuffer())
+
+
+def _save_group(group, values):
+    for name, value in values.items():
+        text = len(value) and isinstance(value[0], str)
+        group.create_dataset(name, data=value, dtype=h5py.string_dtype() if text else None)
+
+
+def _series(frames):
+    """The frames as arrays of the file's types; without frames their shapes hold the numbers of elements and joints."""
+    types = {"time": np.dtype("f8"), **{name: kind for name, (kind, _) in frame_log.frame_type(frames).fields.items()}}
+    return {name: np.asarray(getattr(frames, name), kind.base).reshape(len(frames.time), *kind.shape)
+            for name, kind in types.items()}
+
+
+def starts(lists):
+    """[0, len of the first, len of the first two, ...]."""
+    return np.cumsum([0, *map(len, lists)])
+
+
+def shapes(elements):
+    """{'vertices', 'vertex_start', 'faces', 'face_start', 'element_start'}: arrays of Elements as in /elements."""
+    faces = [face for body in elements.faces for face in body]
+    return {"vertices": np.concatenate(elements.vertices), "vertex_start": starts(elements.vertices),
+            "faces": np.concatenate(faces), "face_start": starts(faces), "element_start": starts(elements.faces)}
+
+
+def _save_contacts(group, contacts):
+    shapes = {"pair": ("i4", 2), "position": ("f4", 3), "force": ("f4", 3)}
+    flat = {name: np.concatenate([np.empty((0, width), kind), *getattr(contacts, name)])
+            for name, (kind, width) in shapes.items()}
+    _save_group(group, {"time": np.asarray(contacts.time, float), "start": starts(contacts.pair), **flat})
+
+
+# --- reading ----------------------------------------------------------------------------------------------------------
+
+
+def load(path, missing="frames are recorded unless a run has --no-frames, and not in batches"):
+    """Frames of a file. Raises RunError when it cannot be read. missing: remedy when there is no file"""
+    try:
+        with opened(path, LAYOUT, missing) as file:
+            if file.attrs.get("format") != FORMAT:
+                raise RunError(f"{path}: no recorded frames ({FORMAT})")
+            loaded = _load(file)
+        if loaded.summary is None:
+            frame_log.add_frames(loaded, append_log.read(Path(path).with_name(frame_log.NAME), loaded.run))
+            vars(loaded).update(_series(loaded))
+        _check_numbers(loaded)
+    except RunError:
+        raise
+    except FAULTS as problem:
+        raise RunError(f"{path}: cannot read the frames: {' '.join(str(problem).split())}; {ANEW}") from None
+    return loaded
+
+
+def _check_numbers(frames):
+    """Raise ValueError when shapes are missing or numbers name elements that do not exist."""
+    e, j, n = frames.elements, frames.joints, len(frames.elements.name)
+    for name in ("vertices", "faces"):
+        if len(getattr(e, name)) != n:
+            raise ValueError(f"elements/{name}: of {len(getattr(e, name))} elements instead of {n}")
+    numbers = [("joints/a", j.a, n), ("joints/b", j.b, n),
+               *(("contacts/pair", pair, n) for pair in frames.contacts.pair)]
+    numbers += [("elements/faces", face, len(vertices)) for faces, vertices in zip(e.faces, e.vertices)
+                for face in faces]
+    for name, values, limit in numbers:
+        if len(values) and not (0 <= np.min(values) and np.max(values) < limit):
+            raise ValueError(f"{name}: a number outside 0 ... {limit - 1}")
+    _check_finite(frames)
+
+
+def _check_finite(frames):
+    """Raise ValueError for numbers that are not finite. A removed element is NaN in all its numbers of a frame."""
+    parts = np.asarray(frames.position), np.asarray(frames.orientation)
+    finite = np.all([np.isfinite(part).all(2) for part in parts], axis=0)
+    removed = np.all([np.isnan(part).all(2) for part in parts], axis=0)
+    tables = {"frames/position, orientation": finite | removed, "frames/time": np.isfinite(frames.time)}
+    tables |= {f"elements/{name}": np.isfinite(getattr(frames.elements, name)) for name in ("position", "orientation")}
+    for name, valid in tables.items():
+        if not valid.all():
+            raise ValueError(f"{name}: a number that is not finite")
+
+
+def _load(file):
+    attributes = {name: str(file.attrs.get(name, "")) for name in ATTRIBUTES}
+    series = {name: file["frames"][name][()] for name in ("time", "position", "orientation", "load", "broken")}
+    loaded = Frames(**attributes, elements=_load_elements(file["elements"]), joints=Joints(**_values(file["joints"])),
+                    **series)
+    loaded.contacts = _load_contacts(file["contacts"])
+    if "motion" in file:
+        numbers = {name: float(file["motion"].attrs[name]) for name in ("dt", "start")}
+        loaded.motion = Motion(**numbers, **_values(file["motion"]))
+    if file.attrs["ended"]:
+        loaded.summary = parse(file.attrs["summary"])
+        loaded.history = History(**_values(file["history"]))
+        loaded.breaks = _values(file["breaks"])
+    return loaded
+
+
+def _values(group):
+    """{name: array, or list of strings}."""
+    return {name: list(data.asstr()[()]) if h5py.check_string_dtype(data.dtype) else data[()]
+            for name, data in group.items()}
+
+
+def _split(flat, start):
+    """Parts of an array, each entry in one."""
+    if not len(start) or start[0] != 0 or start[-1] != len(flat) or np.any(np.diff(start.astype("i8")) < 0):
+        raise ValueError(f"starts of parts that are not 0 ... {len(flat)} in order")
+    return [flat[a:b] for a, b in zip(start[:-1], start[1:])]
+
+
+def _load_elements(group):
+    values = _values(group)
+    begins = {name: values.pop(name) for name in ("vertex_start", "face_start", "element_start")}
+    faces = [list(map(int, face)) for face in _split(values["faces"], begins["face_start"])]
+    values |= {"vertices": _split(values["vertices"], begins["vertex_start"]),
+               "faces": _split(faces, begins["element_start"])}
+    return Elements(**values)
+
+
+def _load_contacts(group):
+    values = _values(group)
+    return Contacts(list(values["time"]),
+                    *(_split(values[name], values["start"]) for name in ("pair", "position", "force")))

@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The state of a run on disk, from which it can be resumed: YADE's own saved scene with one line appended.
+
+The last line is JSON: `identity` of the run, `progress` (wall time, events so far), `sha256` of all bytes before that
+line. YADE's loader stops before it, so the file also opens with `O.load`, without the monitors' earlier rows
+(samples.py). The binary format keeps every bit of every number.
+
+YADE's loader creates whatever object the file names, also a PyRunner, which runs code. The binary format names each
+such class, with its namespace, before the first object of it; a file that names other classes than a run writes is
+refused before YADE reads it. `sha256` finds damage, not forgery.
+"""
+import errno
+import hashlib
+import json
+import os
+import re
+import resource
+from pathlib import Path
+
+import yade.wrapper as yw
+from yade_timber import _class_names
+
+from ..base.errors import RunError, os_errors
+from ..base.files import written_from_memory
+from ..base.json_types import decode, table
+from ..base.record_file import record
+from ..recording.events import Event
+from ..recording.summary import ModesAt
+
+NAME = "checkpoint.yade"
+REMEDY = "run without --resume to start anew"
+Progress = table("Progress", wall_s=float, samples=int, events=list[Event], peaks=dict[str, float],
+                 modes=ModesAt | None, upright=list)
+CLASSES = {*_class_names, "Aabb", "ForceResetter", "InsertionSortCollider", "InteractionLoop"}
+"""Classes of objects in a run's scene."""
+O = yw.Omega()
+
+
+def save(path, identity, progress):
+    """Save the scene, whole or not at all. identity: see identity.py; progress: what `load` returns. Raises OSError."""
+    with written_from_memory(path) as memory:
+        _save(memory)
+        seal = {"identity": identity, "progress": progress, "sha256": hashlib.sha256(memory.read_bytes()).hexdigest()}
+        with open(memory, "ab") as file:
+            file.write(b"\n" + json.dumps(seal).encode())
+
+
+def _save(path):
+    """Save the scene. Raises OSError, also where Boost says no more than 'output stream error'."""
+    try:
+        O.save(str(path), quiet=True)
+    except RuntimeError as problem:
+        limit = resource.getrlimit(resource.RLIMIT_FSIZE)[0]
+        limited = limit != resource.RLIM_INFINITY and path.stat().st_size >= limit
+        number, reason = (errno.EFBIG, os.strerror(errno.EFBIG)) if limited else (errno.EIO, str(problem))
+        raise OSError(number, reason) from None
+
+
+def load(path, identity, kind=dict):
+    """Load the saved scene; returns `progress` as saved. kind: its type, as of json_types. Raises RunError for damage
+    or another identity.
+    """
+    path = Path(path)
+    with record(path) as file:
+        if os.fstat(file.fileno()).st_uid != os.geteuid():  # YADE's loader is not safe against every forged file
+            raise RunError(f"{path}: belongs to another user; copy it if you trust its origin, or {REMEDY}")
+        with os_errors(lambda fault: f"{path}: cannot read the checkpoint: {fault}"):
+            content = file.read()
+    try:
+        body, _, line = content.rpartition(b"\n")
+        seal = json.loads(line)
+        complete = hashlib.sha256(body).hexdigest() == seal["sha256"] and isinstance(seal["identity"], dict)
+        decode(kind, seal["progress"])
+    except (ValueError, KeyError, TypeError, RecursionError):
+        complete = False
+    if not complete:
+        raise RunError(f"{path}: damaged, or not a checkpoint of this package; {REMEDY}")
+    _require_same(path, seal["identity"], identity)
+    foreign = sorted({name.decode() for name in re.findall(rb"yade::(\w*)", body)} - CLASSES)
+    if foreign:
+        raise RunError(f"{path}: holds {foreign[0][:40]}, which no run of this package saves; {REMEDY}")
+    try:
+        _load(body)
+    except Exception as problem:  # of Boost: written by other classes than those loaded now
+        raise RunError(f"{path}: YADE cannot load it ({problem}); {REMEDY}") from None
+    return seal["progress"]
+
+
+def _load(content):
+    """Load the bytes that were checked, whatever is at the path by now."""
+    descriptor = os.memfd_create(NAME)
+    with open(descriptor, "wb") as memory:
+        memory.write(content)
+        memory.flush()
+        O.load(f"/proc/self/fd/{descriptor}", quiet=True)
+
+
+def _require_same(path, saved, wanted):
+    for key in sorted(saved.keys() | wanted.keys()):
+        there, here = saved.get(key), wanted.get(key)
+        if there != here:
+            raise RunError(f"{path}: checkpoint of another run: {key} is {there} there and {here} here; use the same"
+                           " options, another --out, or no --resume")

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The identity of a run: the options that decide its results, fingerprints of the files that they name and of the
+package. Needs no YADE.
+
+`made_from` stands in summary.json; a study repeats a run whose `made_from` has changed. Checkpoint and frames carry
+`identity`, which allows another duration and moved house and record files.
+"""
+import json
+from functools import cache
+from hashlib import sha256
+from pathlib import Path
+
+import yade_timber
+
+from ..base.errors import InputError
+from ..house.description import house_path
+from ..house.loader import house_files
+from ..motion.readers import find_files
+from ..motion.sequence import following
+
+ROOMS = ("*.py", "base/*.py", "house/*.py", "motion/*.py", "scene/*.py", "run/*.py", "recording/*.py", "data/*.csv",
+         "data/houses/*")
+"""Files of a package that decide results, besides the compiled module."""
+DISPLAY = ("base/colors.py", "scene/viewer.py", "run/progress.py", "recording/ensemble.py")
+"""Files in these rooms that change only the display."""
+
+
+def made_from(options):
+    """Content of `made_from` in summary.json. options: RunOptions"""
+    try:
+        files = of_files(_input_files(options))
+    except (InputError, OSError):
+        files = None  # the run itself reports the fault
+    return {"options": options.decisive(), "files": files, "package": package()}
+
+
+def identity(origin):
+    """{property: value} that a checkpoint and the run that continues it share. origin: `made_from` of the run"""
+    options = {name: value for name, value in origin["options"].items() if name not in ("duration", "record", "town")}
+    if "then" in options:
+        options["then"] = [factor for _, factor in following(options["then"], "then")]
+    return {**options, "house": Path(options["house"]).stem, "content of files": origin["files"],
+            "package": origin["package"]}
+
+
+def _input_files(options):
+    """Town file, house file with those that it extends, and records."""
+    records = [options.record] if options.record else []
+    records += [record for record, _ in following(options.then, "then")] if options.then else []
+    return [*filter(None, [options.town]), *house_files(house_path(options.house)),
+            *(file for record in records for file in find_files(record))]
+
+
+@cache
+def package():
+    """Fingerprint of both packages: compiled module, Python files that decide results, shipped data."""
+    plugin = Path(yade_timber.__path__[0])
+    return of_files([*filter(Path.is_file, [plugin / "_yade_timber.so"]), *decisive_files(plugin),
+                     *decisive_files(Path(__file__).resolve().parents[1])])
+
+
+def decisive_files(folder):
+    """Files of the package in `folder` that decide results."""
+    paths = (path for pattern in ROOMS for path in sorted(folder.glob(pattern)))
+    return [path for path in paths if path.is_file() and path.relative_to(folder).as_posix() not in DISPLAY]
+
+
+# --- fingerprints: 16 hexadecimal digits ------------------------------------------------------------------------------
+
+
+def of_arrays(arrays):
+    """Of numpy arrays: types, shapes and bits."""
+    total = sha256()
+    for array in arrays:
+        total.update(f"{array.shape}{array.dtype}".encode())
+        total.update(array.tobytes())
+    return total.hexdigest()[:16]
+
+
+def of_values(values):
+    """Of anything that JSON can write."""
+    return sha256(json.dumps(values, sort_keys=True).encode()).hexdigest()[:16]
+
+
+def of_files(paths):
+    """Of the content of files, in this order. Raises OSError."""
+    total = sha256()
+    for path in paths:
+        total.update(sha256(Path(path).read_bytes()).digest())
+    return total.hexdigest()[:16]

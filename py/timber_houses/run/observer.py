@@ -1,0 +1,208 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The scene in YADE -> descriptions and states of the recording's types.
+
+Element k of the HouseModel is body k of the scene, joint k is joint k of the JointEngine.
+"""
+import json
+import math
+
+import numpy as np
+import yade.wrapper as yw
+from yade_timber import host
+from yade_timber.plugin import compiled
+from yade_timber.scene.engines import find_engine
+
+from ..base.json_types import decode, encode
+from ..motion import GroundMotion, displacement
+from ..recording import frames
+from ..recording.damage import SIDES, DamageSurvey, Level, State
+from ..recording.events import Collapse, EventLog, FirstBreak, OwnWeight, Tilt
+from ..recording.summary import ModesAt
+from ..recording.verdict import UNDAMAGED
+from ..scene.scenario import level_marks
+from .modal import modes_now
+
+SETTLED = 1.0
+"""Time at which the house has settled under its weight, and its first natural modes are taken. [s]"""
+HARMFUL = 0.5
+"""Ground acceleration that damages no sound house: half of the design earthquake. [m/s2]"""
+BREAKS = ("time", "joint", "spring", "cause", "force")
+"""Attributes of a JointBreak, columns of frames.h5's /breaks."""
+O = yw.Omega()
+
+
+# --- descriptions, fixed during a run ---------------------------------------------------------------------------------
+
+
+def describe_elements(model):
+    """frames.Elements of the scene."""
+    bodies, elements = list(O.bodies), model.elements
+    return frames.Elements(name=[e.name for e in elements], kind=[e.kind for e in elements],
+                           group=[e.group for e in elements], material=[e.material for e in elements],
+                           storey=np.array([e.storey for e in elements]), fixed=np.array([e.fixed for e in elements]),
+                           position=np.array([b.state.refPos for b in bodies]),
+                           orientation=np.array([[q[3], q[0], q[1], q[2]] for q in (b.state.refOri for b in bodies)]),
+                           vertices=[np.array(b.shape.vertices) for b in bodies],
+                           faces=[b.shape.faces() for b in bodies])
+
+
+def describe_joints(model):
+    """frames.Joints of the scene."""
+    number = element_numbers(model)
+    specs, joints = model.joints, list(find_engine(yw.JointEngine).joints)
+    return frames.Joints(name=[s.name for s in specs], kind=[s.kind for s in specs],
+                         storey=[storey_of(s, model) for s in specs], side=["+".join(sides_of(s)) for s in specs],
+                         a=np.array([number[s.a] for s in specs], "i4"), b=np.array([number[s.b] for s in specs], "i4"),
+                         anchor=np.array([np.mean(j.anchors1, axis=0) for j in joints]).reshape(-1, 3),
+                         springs=np.array([len(j.anchors1) for j in joints], "i4"),
+                         damaged=np.array([s.broken for s in specs], bool),
+                         strength=np.array([s.strength for s in specs], float))
+
+
+def describe_levels(model):
+    """List of damage.Level, the main structure first."""
+    number, levels = element_numbers(model), []
+    for structure, storeys in model.storey_levels.items():
+        marks = level_marks(model, structure)
+        for storey, (foot, head) in sorted(storeys.items()):
+            members = [e for e, level in marks if level == storey]
+            levels.append(Level(structure, [number[e.name] for e in members], [e.mass for e in members], head - foot))
+    return levels
+
+
+def describe_motion():
+    """frames.Motion of the scene's ground motion, or None."""
+    engine = find_engine(yw.GroundMotionEngine)
+    if engine is None:
+        return None
+    applied = GroundMotion(engine.step, engine.scale * np.array(engine.acceleration))
+    return frames.Motion(applied.dt, engine.start, applied.acceleration, displacement(applied))
+
+
+def versions():
+    """{'yade': version of the running YADE, 'package': version with which the module was built}."""
+    build = json.loads(compiled.build_record()[len(host.RECORD_MARK):])
+    return {"yade": host.host_facts()["yade"], "package": build["package"]}
+
+
+def element_numbers(model):
+    """{name of an element: its number}."""
+    return {element.name: k for k, element in enumerate(model.elements)}
+
+
+def storey_of(joint, model):
+    """Place of a joint: '1', '2', ... in the main structure, else the name of its structure ('entrance')."""
+    return str(joint.storey) if joint.group == next(iter(model.storey_levels)) else joint.group
+
+
+def sides_of(joint):
+    """Walls of a joint, in the order of SIDES (two for a corner column), or ['inside']."""
+    return [side for side in SIDES if side in joint.side] or ["inside"]
+
+
+def cause_of(entry, model):
+    """'tension', 'compression' or 'shear' of a JointBreak; of a wall 'shear': its signs are directions of its drift."""
+    return "shear" if model.joints[entry.joint].ks == 0 else entry.cause
+
+
+def break_row(entry, model):
+    """Values of a JointBreak in the order of breaks.csv."""
+    joint = model.joints[entry.joint]
+    return (entry.time, joint.name, joint.kind, storey_of(joint, model), "+".join(sides_of(joint)), entry.spring,
+            cause_of(entry, model), entry.force)
+
+
+# --- states -----------------------------------------------------------------------------------------------------------
+
+
+def placements():
+    """((N, 3) positions [m], (N, 4) orientations w, x, y, z) of the bodies, float32; NaN for a removed one."""
+    position, orientation = compiled.packed_placements()
+    return np.frombuffer(position, "f4").reshape(-1, 3), np.frombuffer(orientation, "f4").reshape(-1, 4)
+
+
+def joint_loads():
+    """((J,) load over strength, float32; (J,) number of broken springs, uint8)."""
+    load, broken = compiled.packed_joints(find_engine(yw.JointEngine))
+    return np.frombuffer(load, "f4"), np.frombuffer(broken, "u1")
+
+
+def largest_so_far():
+    """[(load [-], pull [N], shear [N], opening [m])] of the joints: largest so far, none before a sample."""
+    monitor = find_engine(yw.StructureMonitor)
+    return list(zip(monitor.load, monitor.pull, monitor.shear, monitor.opening))
+
+
+def contact_points():
+    """((P, 2) element numbers, (P, 3) positions [m], (P, 3) forces on the second element [N])."""
+    pair, position, force = compiled.packed_contacts()
+    return (np.frombuffer(pair, "i4").reshape(-1, 2), np.frombuffer(position, "f4").reshape(-1, 3),
+            np.frombuffer(force, "f4").reshape(-1, 3))
+
+
+class Observer:
+    """Notes events, peak drifts of structures and first natural modes of the run. progress: of a checkpoint"""
+
+    def __init__(self, model, progress=None):
+        self.model = model
+        self.survey = DamageSurvey(describe_elements(model), describe_joints(model), describe_levels(model))
+        self.log = EventLog(self.survey, progress["events"] if progress else ())
+        self.peaks = progress["peaks"] if progress else dict.fromkeys(self.survey.structures, 0.0)
+        self.modes = decode(ModesAt | None, progress["modes"]) if progress else None
+        self.upright = progress["upright"] if progress else (0.0, [])
+        motion = describe_motion()
+        self.shaking = motion and motion.first(HARMFUL)
+
+    def progress(self):
+        """What a checkpoint must hold besides the scene: the argument `progress`."""
+        return {"events": self.log.encoded(), "peaks": self.peaks, "modes": encode(self.modes), "upright": self.upright}
+
+    @property
+    def main_levels(self):
+        """damage.Level of the main structure, from below."""
+        return [level for level in self.survey.levels if level.structure == self.survey.structures[0]]
+
+    def fall(self):
+        """Start of a collapsed house's fall: a storey drift passes 1/10, or a floor is down [s]; None if it stands."""
+        monitor = find_engine(yw.HouseMonitor)
+        return (float(np.nanmin([monitor.tiltTime, monitor.collapseTime])) if math.isfinite(monitor.collapseTime)
+                else None)
+
+    def joint_peaks(self):
+        """[(load, pull, shear, opening)] of the joints: largest values so far, or before the fall if there is one."""
+        return largest_so_far() if self.fall() is None else self.upright[1]
+
+    def state(self):
+        """damage.State of the scene; bodies and joints that the user has added are left out."""
+        elements, joints = len(self.model.elements), len(self.model.joints)
+        position, orientation = placements()
+        return State(position[:elements], orientation[:elements], joint_loads()[1][:joints])
+
+    def observe(self, time, last=False):
+        """Note the events up to a time [s], that of the scene's state. last: whether it is the final state"""
+        self.log.drop_after(time)
+        monitor, first = find_engine(yw.HouseMonitor), next(iter(find_engine(yw.JointEngine).breaks), None)
+        if first:
+            _, _, kind, storey, side, _, cause, force = break_row(first, self.model)
+            self.log.add(first.time, FirstBreak(kind, storey, side, cause, force))
+        if not any(map(math.isfinite, (monitor.tiltTime, monitor.collapseTime))):
+            self.upright = time, largest_so_far()
+        if math.isfinite(monitor.tiltTime):
+            self.log.add(monitor.tiltTime, Tilt(monitor.tiltDirection))
+        if math.isfinite(monitor.collapseTime):
+            self.log.add(monitor.collapseTime, Collapse())
+        state = self.state()
+        self.log.observe(time, state)
+        if self.modes is None and time > SETTLED - O.dt / 2:
+            self.modes = modes_now(self.main_levels)
+        self.peaks = {name: max(peak, self.survey.drift(state, name)) for name, peak in self.peaks.items()}
+        next_frame = math.inf if last else time + frames.steps_between(O.dt) * O.dt
+        if self.shaking is not None and time <= self.shaking < next_frame:
+            self._weigh(time, state)
+
+    def _weigh(self, time, state):
+        """Note the damage that the house has in its last frame before the shaking, or before the end of the run."""
+        peaks = {**self.peaks, self.survey.structures[0]: max(find_engine(yw.HouseMonitor).peak, default=0.0)}
+        structures = self.survey.by_structure(state, peaks)
+        if any(facts.verdict != UNDAMAGED for facts in structures.values()):
+            self.log.add(time, OwnWeight("snow" in self.survey.elements.kind, structures))

@@ -1,0 +1,193 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Quantities of the run that is loaded in YADE: storey shears, accelerations, peaks of joints and column feet.
+
+Element k of the HouseModel is body k of the scene, joint k is joint k of the JointEngine and of the StructureMonitor.
+"""
+from dataclasses import dataclass
+from operator import attrgetter
+from typing import NamedTuple
+
+import numpy as np
+import yade.wrapper as yw
+from yade_timber.atomic_write import write_text
+from yade_timber.scene.engines import find_engine, gravity_now
+
+from ..base.table import csv_text
+from ..recording import quantities
+from ..recording.history import DIRECTIONS
+from ..recording.peaks import COLUMNS, JOINTS
+from ..recording.summary import (LargestForce, LargestUplift, LargestUtilisation, Modes, Quantities, Shear,
+                                 StoreyQuantities)
+from . import observer
+from .modal import modes_now
+
+NAMES = (quantities.NAME, JOINTS, COLUMNS)
+"""Files that `Tables.write` makes."""
+AXES = quantities.AXES
+O = yw.Omega()
+
+
+# --- storeys ----------------------------------------------------------------------------------------------------------
+
+
+def part_masses():
+    """(P,) masses of the StructureMonitor's parts. [kg]"""
+    monitor = find_engine(yw.StructureMonitor)
+    masses = np.zeros(max(monitor.parts, default=-1) + 1)
+    for body, part in zip(monitor.bodies, monitor.parts):
+        masses[part] += O.bodies[body].state.mass if O.bodies[body] is not None else 0.0
+    return masses
+
+
+def storeys():
+    """recording.quantities.Storeys of the run."""
+    masses = part_masses()
+    samples = np.array(find_engine(yw.StructureMonitor).rows).reshape(-1, 1 + 3 * len(masses))
+    return quantities.storeys(samples, masses, observer.describe_motion())
+
+
+def storey_peaks(table):
+    """Arguments of Quantities: masses, base shear, accelerations, storeys. table: Storeys of the run, up to a fall"""
+    masses, gravity = part_masses(), gravity_now().norm()
+    peaks = {}
+    for k in range(1, table.count + 1):
+        above = float(masses[2 * k:].sum())
+        shear = _shears(table, f"shear_{{}}{k}")
+        peaks[f"storey{k}"] = StoreyQuantities(
+            mass_above_kg=round(above, 3),
+            shear=shear,
+            shear_coefficient={axis: round(value / (above * gravity), 4) if above * gravity else None
+                               for axis, value in shear.sustained.items()},
+            acceleration={axis: round(table.peak(f"acceleration_{axis}{k}"), 4) for axis in AXES},
+        )
+    return {"mass_kg": round(float(masses.sum()), 3), "base_shear": _shears(table, "base_shear_{}"),
+            "acceleration_band_hz": list(quantities.BAND),
+            "ground_acceleration": {axis: round(table.peak(f"ground_acceleration_{axis}"), 4) for axis in AXES},
+            "storeys": peaks}
+
+
+def _shears(table, name):
+    """Shear: the largest in both directions [N], as means over 0.1 s and over a sample interval of 0.01 s."""
+    sustained, peak = ({axis: round(largest(name.format(axis)), 3) for axis in DIRECTIONS}
+                       for largest in (table.sustained, table.peak))
+    return Shear(sustained=sustained, peak=peak)
+
+
+# --- joints and columns -----------------------------------------------------------------------------------------------
+
+
+class JointRow(NamedTuple):
+    """Row of joints.csv. per: 'point' or 'joint'; broken: number of springs"""
+
+    name: str
+    kind: str
+    storey: str
+    side: str
+    utilisation: float
+    pull: float
+    shear: float
+    opening: float
+    strength: float
+    per: str
+    broken: int
+    state: str
+
+
+class ColumnRow(NamedTuple):
+    """Row of columns.csv."""
+
+    name: str
+    structure: str
+    storey: int
+    east: float
+    north: float
+    uplift: float
+    pull: float
+    utilisation: float
+    state: str
+
+
+JOINT_HEADER = (*("joint", "kind", "storey", "side", "utilisation [-]", "pull [N]", "shear [N]", "opening [m]"),
+                *("strength [N]", "strength of", "broken springs [-]", "state"))
+COLUMN_HEADER = ("column", "structure", "storey", "east [m]", "north [m]", "uplift [m]", "pull [N]", "utilisation [-]",
+                 "state")
+
+
+def joint_peaks(observed):
+    """Rows of joints.csv, the largest utilisation first. observed: Observer of the run"""
+    model, (_, broken) = observed.model, observer.joint_loads()
+    peaks = observed.joint_peaks() or [(0.0,) * 4] * len(model.joints)
+    rows = []
+    for joint, (load, pull, shear, opening), springs in zip(model.joints, peaks, broken):
+        state = ("before" if joint.broken else "broken" if springs >= len(joint.points) else "partly" if springs
+                 else "whole")
+        place = observer.storey_of(joint, model), "+".join(observer.sides_of(joint))
+        rows.append(JointRow(joint.name, joint.kind, *place, load, pull, shear, opening, float(joint.strength),
+                             joint.per, int(springs), state))
+    return sorted(rows, key=lambda row: -row.utilisation)
+
+
+def column_feet(observed):
+    """Rows of columns.csv, the largest uplift first. observed: Observer of the run"""
+    model, state = observed.model, observed.state()
+    feet = {}
+    for joint, (load, pull, _, opening) in zip(model.joints, observed.joint_peaks()):
+        if joint.end == "bottom" and model.element(joint.a).kind == "column":
+            feet[joint.a] = np.maximum(feet.get(joint.a, 0.0), (opening, pull, load))
+    survey = observed.survey
+    rows = []
+    for element, fallen, loose in zip(model.of_kind("column"), survey.fallen_columns(state),
+                                      survey.loose_columns(state)):
+        uplift, pull, load = map(float, feet.get(element.name, (0.0, 0.0, 0.0)))
+        x, y, _ = map(float, element.solid.centroid)
+        rows.append(ColumnRow(element.name, element.group, element.storey, x, y, uplift, pull, load,
+                              "fallen" if fallen else "loose" if loose else "standing"))
+    return sorted(rows, key=lambda row: -row.uplift)
+
+
+# --- summary and files ------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Tables:
+    """Content of the files. storeys: Storeys; joints: JointRows; columns: ColumnRows"""
+
+    storeys: quantities.Storeys
+    joints: list
+    columns: list
+
+    def write(self, folder):
+        """Write storeys.csv, joints.csv, columns.csv; returns their paths. Raises OSError."""
+        self.storeys.write(folder / quantities.NAME)
+        write_text(folder / JOINTS, csv_text(JOINT_HEADER, self.joints))
+        write_text(folder / COLUMNS, csv_text(COLUMN_HEADER, self.columns))
+        return [folder / name for name in NAMES]
+
+
+def tables(observed):
+    """Tables of the run as it is now. observed: Observer of the run"""
+    return Tables(storeys(), joint_peaks(observed), column_feet(observed))
+
+
+def summarised(tables, observed):
+    """Quantities of the summary. tables: Tables of the run; observed: Observer of the run"""
+    standing = [row for row in tables.columns if row.state == "standing"]
+    breakable = [row for row in tables.joints if np.isfinite(row.strength)]
+    fall = observed.fall()
+    collapsed = fall is not None
+    return Quantities(
+        until_s=fall,
+        modes=Modes(before=observed.modes,
+                    after=None if collapsed or observed.modes is None else modes_now(observed.main_levels)),
+        **storey_peaks(tables.storeys.until(fall) if collapsed else tables.storeys),
+        largest_utilisation=_largest(LargestUtilisation, tables.joints, "utilisation", "joint", "value", 4),
+        largest_pull=_largest(LargestForce, breakable, "pull", "joint", "force"),
+        largest_shear=_largest(LargestForce, breakable, "shear", "joint", "force"),
+        largest_uplift=None if collapsed else _largest(LargestUplift, standing, "uplift", "column", "uplift_m"),
+    )
+
+
+def _largest(kind, rows, quantity, noun, value, digits=6):
+    """kind(noun: name, value: number) of the row with the largest quantity, None without rows."""
+    row = max(rows, key=attrgetter(quantity), default=None)
+    return row and kind(**{noun: row.name, value: round(float(getattr(row, quantity)), digits)})

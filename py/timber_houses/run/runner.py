@@ -1,0 +1,299 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A run: scene -> steps -> results. Command line: cli.py; run in a live session: live.py."""
+import math
+import signal
+import time
+from contextlib import contextmanager
+from shlex import quote
+
+import yade.wrapper as yw
+from yade_timber.atomic_write import remove
+from yade_timber.scene.engines import find_engine
+from yade_timber.scene.export import export_scene
+
+from ..base.errors import RunError, os_errors
+from ..pictures import REPORT, all_pictures
+from ..recording import ensemble, frame_log, frames
+from ..scene.scenario import build
+from ..text.english import loads, sentence
+from . import checkpoint, quantities, samples, summary
+from .identity import identity, made_from, of_values
+from .observer import Observer
+from .progress import Bar, Status
+from .recorder import Recorder
+from .samples import Samples
+
+STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM)
+HOUSES = "houses.csv"
+"""Table of a town's houses."""
+RECORDED, STATE = (frames.NAME, frame_log.NAME), (checkpoint.NAME, samples.NAME)
+"""Files of the frames, and of what a resumed run continues from."""
+O = yw.Omega()
+
+
+class Interrupted(Exception):
+    """The user has stopped the run. number: of the signal; time: simulated [s]."""
+
+    def __init__(self, number, time):
+        super().__init__(number, time)
+        self.number, self.time = number, time
+
+
+class PhysicsError(RunError):
+    """The numbers of the scene are not those of a physical motion any more."""
+
+
+@contextmanager
+def physics_errors():
+    """Context in which an error of YADE's engines becomes a PhysicsError."""
+    try:
+        yield
+    except RuntimeError as problem:
+        raise PhysicsError(f"{problem}; the run stops at {O.time:.4f} s") from None
+
+
+class Stoppable:
+    """Base of what a signal ends after the present chunk. options: RunOptions; signal: number of the signal, or None"""
+
+    signal = None
+
+    @contextmanager
+    def _stop_signals(self):
+        """Stop signals end the run after the present chunk; further ones have no effect."""
+        before = {number: signal.signal(number, self._on_signal) for number in STOP_SIGNALS}
+        try:
+            yield
+        finally:
+            if not self.signal:
+                for number, handler in before.items():
+                    signal.signal(number, handler)
+
+    def _on_signal(self, number, _frame):
+        self.signal = number
+
+
+class Run(Stoppable):
+    """A scenario in YADE, its RunOptions, its progress: duration / dt steps, fewer after a collapse."""
+
+    def __init__(self, scenario, options):
+        self.scenario, self.options = scenario, options
+        self.origin = made_from(options)
+        self.steps = round(scenario.duration / scenario.dt)
+        self.chunk = frames.steps_between(scenario.dt)  # steps between frames, and checks of signals and checkpoints
+        self.wall_s = 0.0  # [s] of all steps, those before a resume included
+        self.last_saved = 0  # step of the last checkpoint
+        self.fault = None  # of the physics, which ends the run early
+        self.summary = self.frames = None  # once the results are written
+        self.only_export = options.export is not None and self.steps == 0  # results in the folder are left alone
+        self.checkpoint_path, self.frames_path = options.folder / checkpoint.NAME, options.folder / frames.NAME
+        if not (options.resume and self.checkpoint_path.exists() and self._resume()):
+            self._start()
+        skipper = find_engine(yw.RestSkipper)
+        if skipper:
+            skipper.last = self.steps
+
+    # --- start --------------------------------------------------------------------------------------------------------
+
+    def _start(self):
+        """Build the scene."""
+        self._build()
+        if self.only_export:
+            return
+        clear(self.options, *RECORDED, *STATE)
+        self._observe()
+        self.observer.observe(O.time)
+        if self.recorder:
+            self.recorder.take(O.time)
+        if self.options.resume:
+            self.options.say(f"no checkpoint of this run in {self.options.folder}: starting from the beginning")
+
+    def _build(self):
+        """Build the scene; export it where that is asked for. Raises RunError."""
+        self.model = build(self.scenario)
+        if self.options.export:
+            target = f"{self.options.named('export')} {self.options.export}"
+            with os_errors(lambda fault: f"{target}: cannot be written: {fault}"):
+                export_scene(self.options.export)
+
+    def _resume(self):
+        """Load checkpoint and frames; returns False when the run may start anew instead. Raises RunError."""
+        try:
+            self._load()
+        except RunError:
+            if not self.options.or_anew:
+                raise
+            self.wall_s, self.last_saved = 0.0, 0
+            return False
+        clear(self.options, *([] if self.recorder else RECORDED))
+        self.options.say(f"resuming from {O.time:.2f} s")
+        return True
+
+    def _load(self):
+        if self.options.export:
+            self._build()
+        else:
+            self.model = self.scenario.build_model()
+        saved = checkpoint.load(self.checkpoint_path, identity(self.origin), checkpoint.Progress)
+        if O.iter >= self.steps:
+            duration = f"{self.options.named('duration')} {self.scenario.duration:g}"
+            raise RunError(f"{duration}: {self.checkpoint_path} is already at {O.time:g} s; give a longer duration")
+        self.wall_s, self.last_saved = saved["wall_s"], O.iter
+        self._observe(saved)
+        with os_errors(lambda fault: f"{self.options.folder}: the run cannot be continued ({fault})"):
+            self.samples.resume(saved["samples"], checkpoint.REMEDY)
+            if self.recorder:
+                self.recorder.resume()
+
+    def _observe(self, progress=None):
+        """Attach observer and recorder to the scene. progress: of a checkpoint."""
+        self.identity = identity(self.origin)
+        self.observer = Observer(self.model, progress)
+        run, folder = of_values(self.identity), self.options.folder
+        self.samples = Samples(folder / samples.NAME, run)
+        titled = title(self.scenario, self.model)
+        self.options.say(titled)
+        self.recorder = (None if self.options.no_frames
+                         else Recorder(self.frames_path, self.scenario, self.model, titled, run))
+
+    # --- steps --------------------------------------------------------------------------------------------------------
+
+    def complete(self):
+        """All steps, then the results, also of a run that is cut off. Raises RunError, Interrupted after a signal."""
+        try:
+            if not self.only_export:
+                bar = Bar(self.scenario.name, self.scenario.duration, O.time, self.options.quiet,
+                          Status(self.observer.log))
+                with self._stop_signals(), bar:
+                    while O.iter < self.steps:
+                        self.advance(self.next_stop())
+                        self.after_chunk()
+                        bar.advance(O.time)
+        except PhysicsError as problem:
+            self.write(cut_off=str(problem))
+            raise
+        self.write()
+
+    def next_stop(self):
+        """Step of the next frame. The last checkpoint is one step before the end: energies and contact points are
+        known only after a step, so a resumed run has one to make.
+        """
+        left = self.steps - O.iter
+        return O.iter + min(max(1, left - 1), self.chunk - O.iter % self.chunk)
+
+    def after_chunk(self):
+        """Check the numbers, end the run after a collapse, record a frame, save a checkpoint when it is due. Raises
+        PhysicsError, and Interrupted after a signal."""
+        with physics_errors():
+            find_engine(yw.HealthCheck).check()
+        if self.collapse_ends_it():
+            self.steps = O.iter
+        if O.iter == self.steps:
+            return
+        if O.iter % self.chunk == 0:
+            self.take(O.time)
+        if self.signal or O.iter == self.steps - 1 or self._checkpoint_due():
+            self.save()
+        if self.signal:
+            raise Interrupted(self.signal, O.time)
+
+    def collapse_ends_it(self):
+        """Whether the run ends now because its house has collapsed."""
+        return self.scenario.until_collapse and math.isfinite(find_engine(yw.HouseMonitor).collapseTime)
+
+    def take(self, time, last=False):
+        """Note events and record a frame of the scene as it is now. time [s]; last: whether it is the final state."""
+        self.observer.observe(time, last)
+        if self.recorder:
+            self.recorder.take(time, last)
+
+    def advance(self, step):
+        """Advance to that step by `O.step`: unlike `O.run` it raises errors here and does not wait in slices."""
+        since = time.perf_counter()
+        with physics_errors():
+            while O.iter < step:
+                O.step()
+        self.wall_s += time.perf_counter() - since
+
+    def _checkpoint_due(self):
+        if self.options.checkpoint == 0:
+            return False
+        every = max(1, round(self.options.checkpoint / self.scenario.dt))
+        return O.iter // every > self.last_saved // every
+
+    def save(self):
+        """Save a checkpoint, unless switched off. Frames are saved first: those after a checkpoint can be dropped."""
+        if self.options.checkpoint > 0:
+            with os_errors(self._unsaved):
+                if self.recorder:
+                    self.recorder.save()
+                progress = {"wall_s": self.wall_s, "samples": self.samples.save(), **self.observer.progress()}
+                checkpoint.save(self.checkpoint_path, self.identity, progress)
+            self.last_saved = O.iter
+
+    def _unsaved(self, fault):
+        remedy = ("the previous checkpoint is intact, continue with --resume" if self.checkpoint_path.exists()
+                  else "there is no earlier one")
+        stop = f"the checkpoint cannot be written ({fault}); the run stops at {O.time:.2f} s, {remedy}"
+        return f"{self.options.folder}: {stop}"
+
+    # --- results ------------------------------------------------------------------------------------------------------
+
+    def write(self, cut_off=None):
+        """Write results and pictures; print their names. cut_off: reason for an early end. Or PhysicsError."""
+        if self.only_export:
+            self.options.say(f"written: {self.options.export}")
+            return
+        if cut_off is None:
+            self.take(O.time, last=True)
+        with self.samples.restored():
+            tables = quantities.tables(self.observer)
+            self.summary = summary.summary(self.scenario, self.observer, tables, self.wall_s, self.origin, cut_off)
+            written = self._results(tables)
+        self.options.say(sentence(self.summary))
+        with os_errors(lambda fault: f"{self.options.folder}: the results are written, the pictures are not ({fault});"
+                                     " scripts/show/show_run.py makes them"):
+            written += all_pictures.draw(self.options.folder, self.options.views, self.options.report)
+        written += [path for path in (self.options.export, self.checkpoint_path) if path and path.exists()]
+        self.options.say("written: " + ", ".join(str(path) for path in written))
+        if not self.options.no_frames:
+            show = f"xdg-open {quote(str(self.options.folder / all_pictures.PLAYER))}"
+            self.options.say(f"next: {show if self.options.views else self.options.door.pictures(self.options.folder)}")
+        if cut_off is None and self.summary.cut_off:
+            raise PhysicsError(self.summary.cut_off)
+
+    def _results(self, tables):
+        written = []
+        with unwritten(self.options):
+            if self.recorder:
+                self.frames = self.recorder.finish(self.summary)
+                written.append(self.frames_path)
+            return written + summary.write(self.options.folder, self.summary, tables, self.observer.model)
+
+
+def unwritten(options):
+    """Context for writing results. Raises RunError."""
+    folder, remedy = options.folder, "repeat the command with --resume"
+    return os_errors(lambda fault: f"{folder}: the results cannot be written ({fault}); {remedy}")
+
+
+def clear(options, *more):
+    """Remove results of an earlier run or town and the files `more`, which are none of this run. Raises RunError."""
+    with removing(options):
+        for name in (*summary.NAMES, *all_pictures.NAMES, *REPORT, *ensemble.NAMES, HOUSES, *more):
+            remove(options.folder / name)
+
+
+@contextmanager
+def removing(options):
+    """Context for removing files. Raises RunError."""
+    try:
+        yield
+    except OSError as problem:
+        raise RunError(f"{problem.filename}: cannot be removed: {problem.strerror}; choose another folder with"
+                       f" {options.named('out')}") from None
+
+
+def title(scenario, model):
+    """Title of the pictures: house and loads."""
+    damped = "" if scenario.joint_damping is None else f", joint damping {scenario.joint_damping:g}"
+    return f"House {model.name}: {loads(scenario.motion is not None, scenario.snow_depth)}{damped}"

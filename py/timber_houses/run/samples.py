@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Rows of the monitors of the loaded run; those before the last checkpoint are in a file beside it."""
+from contextlib import contextmanager
+
+import numpy as np
+import yade.wrapper as yw
+from yade_timber.scene.engines import find_engine
+
+from ..base.errors import RunError
+from ..recording.append_log import AppendLog
+
+NAME = "samples.log"
+MONITORS = {b"H": yw.HouseMonitor, b"M": yw.StructureMonitor}
+"""Kind of the records, and the engine whose `rows` they hold, float64."""
+O = yw.Omega()
+
+
+class Samples:
+    """run: fingerprint of the run's identity"""
+
+    def __init__(self, path, run):
+        self.log = AppendLog(path, run)
+
+    def save(self):
+        """Move the rows from the scene to the file; returns the file's size. Raises OSError."""
+        for kind, monitor in MONITORS.items():
+            engine = find_engine(monitor)
+            self.log.add(kind, O.time, np.array(engine.rows))
+            engine.rows = []
+        return self.log.flush()
+
+    def resume(self, size, remedy):
+        """Drop rows after the present time. size: of the file at the checkpoint. Raises OSError, RunError."""
+        if self.log.cut(O.time + O.dt / 2) != size:
+            raise RunError(f"{self.log.path}: missing, damaged or older than the checkpoint at {O.time:g} s; {remedy}")
+        for kind, time, content in self.log.records():
+            if kind not in MONITORS or len(content) % np.dtype(float).itemsize:
+                raise RunError(f"{self.log.path}: no rows of a monitor at {time:g} s; {remedy}")
+
+    @contextmanager
+    def restored(self):
+        """Context in which the scene's monitors have all rows, for the results."""
+        earlier = {kind: [] for kind in MONITORS}
+        for kind, _, content in self.log.records():
+            earlier[kind].append(np.frombuffer(content))
+        latest = {kind: find_engine(monitor).rows for kind, monitor in MONITORS.items()}
+        for kind, monitor in MONITORS.items():
+            find_engine(monitor).rows = np.concatenate([*earlier[kind], latest[kind]]).tolist()
+        try:
+            yield
+        finally:
+            for kind, monitor in MONITORS.items():
+                find_engine(monitor).rows = latest[kind]

@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Results of the run that is loaded in YADE: summary.json, history.csv, breaks.csv, and the tables of quantities.py."""
+import math
+from dataclasses import replace
+
+import numpy as np
+import yade.wrapper as yw
+from yade_timber.atomic_write import write_text
+from yade_timber.energy_terms import DISSIPATED, ELASTIC, IMPOSED
+from yade_timber.plugin import compiled
+from yade_timber.scene import queries
+from yade_timber.scene.engines import find_engine
+
+from ..base.errors import RunError
+from ..base.json_types import decode, encode
+from ..base.table import csv_text
+from ..house import comparison, diagnose, weigh
+from ..recording import drift
+from ..recording.history import NAME as HISTORY
+from ..recording.history import History
+from ..recording.peaks import BREAKS
+from ..recording.summary import NAME, ColumnDrifts, Diagnosis, Energy, Solver, Summary, Versions, Walls, Weight
+from ..text.english import sentence
+from . import observer, quantities
+
+CREATED, NEGLIGIBLE = 1e-4, 1e-3
+"""Admissible energy created by contacts and joints, as a share of the input [-], and what is always admissible [J]."""
+NAMES = (NAME, HISTORY, BREAKS, *quantities.NAMES)
+"""Files that `write` makes."""
+O = yw.Omega()
+
+
+def summary(scenario, observed, tables, wall_s, made_from, cut_off=None):
+    """Summary of the scene as it is now. tables: quantities.Tables; wall_s [s]; cut_off: reason for an early end.
+
+    Drifts: recording/drift.py; broken, columns: recording/damage.py. Raises RunError for energies that are not finite.
+    """
+    model, survey, state = observed.model, observed.survey, observed.state()
+    monitor, skipper = find_engine(yw.HouseMonitor), find_engine(yw.RestSkipper)
+    history = recorded_history(monitor)
+    tilt, collapse = _finite(monitor.tiltTime), _finite(monitor.collapseTime)
+    residual, amplitude = drift.residual(history)
+    simulated = round(O.iter * scenario.dt, 9)
+    structures = survey.by_structure(state, observed.peaks)
+    created = created_energy()
+    energy = (energy_balance(queries.energy(), created) if cut_off is None
+              else energy_balance(last_energies(history), _finite(created)))
+    draft = Summary(
+        scenario=scenario.name, model=model.name, earthquake=scenario.motion is not None, snow=scenario.snow_depth > 0,
+        snow_depth_m=scenario.snow_depth, snow_mass_kg=model.counts()["mass_snow"], weight=decode(Weight, weigh(model)),
+        diagnosis=decode(Diagnosis, {**diagnose(model), "disagreement": ""}), joint_damping=scenario.joint_damping,
+        walls=Walls(level=model.law["wall_level"], other=scenario.other_walls) if model.law["wall_level"] else None,
+        record=scenario.record, dt=scenario.dt, duration_s=simulated, until_collapse=scenario.until_collapse,
+        cut_off=cut_off or created_too_much(energy), steps=O.iter, wall_s=round(wall_s, 3),
+        skipped_s=round(skipper.skipped if skipper else 0.0, 3),
+        real_time_factor=round(simulated / wall_s, 6) if wall_s > 0 else None, threads=compiled.thread_count(),
+        elements=len(O.bodies), joints=survey.count_all(),
+        broken=survey.count_broken(state, len(find_engine(yw.JointEngine).breaks)), columns=survey.count_columns(state),
+        leans_from_s=drift.lean_start(history, tilt, monitor.tiltDirection), tilt_time_s=tilt,
+        tilt_direction=monitor.tiltDirection or None, collapsed=collapse is not None, collapse_time_s=collapse,
+        fallen_structures=[name for name, facts in structures.items() if facts.collapsed],
+        leaning_structures=[name for name, facts in list(structures.items())[1:] if facts.leans],
+        peak_drift=drift.by_storey(monitor.peak), residual_drift=drift.by_storey(residual),
+        final_amplitude=drift.by_storey(amplitude), still_moving=drift.still_moving(amplitude),
+        events=observed.log.sorted(), energy=energy, solver=solver(), versions=Versions(**observer.versions()),
+        structures=structures, quantities=quantities.summarised(tables, observed), verdict="", sentence="",
+        made_from=made_from,
+        column_drift=ColumnDrifts(drift.by_storey(monitor.columnPeak), drift.by_storey(monitor.medianPeak)),
+    )
+    return judged(draft)
+
+
+def created_energy():
+    """Energy that contacts and joints have created so far [J]: of points and joints that have ceased to exist, debts of
+    stiff joints, and the net error of yielding joints that the step resolves."""
+    contacts, joints = find_engine(yw.ContactForces), find_engine(yw.JointEngine)
+    return contacts.created + contacts.jointDebt + (max(0.0, joints.created) if joints else 0.0)
+
+
+def judged(draft):
+    """The Summary with verdict and sentences. The main structure is judged by the HouseMonitor, others by frames."""
+    peak, residual = draft.largest_drift()[0], draft.largest_drift("residual_drift")[0]
+    at_columns = draft.largest_at_columns or (0.0,)
+    main = replace(draft.main, peak_drift=peak, column_drift=at_columns[0], residual_drift=residual,
+                   collapsed=draft.collapsed)
+    draft = replace(draft, structures={**draft.structures, next(iter(draft.structures)): main}, verdict=main.verdict)
+    return replace(draft, diagnosis=replace(draft.diagnosis, disagreement=comparison(draft)), sentence=sentence(draft))
+
+
+def recorded_history(monitor):
+    """History of a HouseMonitor, without samples of a scene whose numbers have failed."""
+    history = History(monitor.columns(), monitor.rows)
+    return History(history.columns, history.rows[np.isfinite(history.rows).all(1)])
+
+
+def last_energies(history):
+    """Terms of `queries.energy` in the last sample of a History; zero without one."""
+    return {name: float(history.energy(name)[-1]) if history.samples else 0.0 for name in yw.HouseMonitor().energy()}
+
+
+def energy_balance(terms, created):
+    """The part `energy` [J] from the terms of `queries.energy`. created: ContactForces.created, None if unknown
+
+    input: work of the ground motion, energy of imposed velocities and potential energy released by gravity since the
+    start. residual: stored, kinetic and dissipated energy minus the input; residual_fraction: its absolute value over
+    the input, None without input.
+    created: energy that contact points and joints returned beyond what they had stored; contained in `residual`.
+    Raises RunError for numbers that are not finite.
+    """
+    terms = {"ground_motion": 0.0, IMPOSED: 0.0, **dict.fromkeys(DISSIPATED, 0.0), **terms}
+    supplied = terms["ground_motion"] + terms[IMPOSED] - terms["gravity"]
+    residual = queries.energy_residual(terms)
+    balance = Energy(input=supplied, kinetic=terms["kinetic"], elastic=sum(terms[name] for name in ELASTIC),
+                     dissipated={name: terms[name] for name in DISSIPATED},
+                     created=created, residual=residual,
+                     residual_fraction=abs(residual) / supplied if supplied > 0 else None,
+                     ground_motion=terms["ground_motion"], gravity_released=-terms["gravity"])
+    if not all(math.isfinite(value) for value in (supplied, residual, created or 0.0, *balance.dissipated.values())):
+        raise RunError(f"the energies at {O.time:.4f} s are not finite: {encode(balance)}; try a smaller --dt")
+    return balance
+
+
+def solver():
+    """The part `solver`: sweeps of a computed step, mean and largest; steps that ended before their sweeps had
+    converged, and the largest change of a pair in the last sweep of one, as twice its kinetic energy [J]; the
+    largest overlap that no contact carried [m]."""
+    forces, skipper = find_engine(yw.ContactForces), find_engine(yw.RestSkipper)
+    check = find_engine(yw.OverlapCheck)
+    computed = O.iter - (round(skipper.skipped / O.dt) if skipper else 0)
+    mean = round(forces.sweepsDone / max(1, computed), 3)
+    return Solver(sweeps_mean=mean, sweeps_max=forces.sweepsMax, unconverged_steps=forces.unconverged,
+                  worst_change_j=forces.worstChange, uncarried_overlap_m=check.largest if check else None)
+
+
+def created_too_much(energy):
+    """Sentence on energy that contacts and joints have created beyond CREATED of the input; None without."""
+    if energy.created <= CREATED * max(energy.input, 0.0) or energy.created < NEGLIGIBLE:
+        return None
+    share = energy.created / energy.input if energy.input > 0 else math.inf
+    return (f"contacts and joints have created {energy.created:.3g} J, {share:.1g} of the energy put in (admissible:"
+            f" {CREATED:g}); try a smaller --dt")
+
+
+def _finite(value):
+    """A number for JSON: None for NaN, as a time that has not come, and infinity."""
+    return value if math.isfinite(value) else None
+
+
+# --- files ------------------------------------------------------------------------------------------------------------
+
+
+def breaks_text(model):
+    """Text of breaks.csv: every spring that broke, in order."""
+    header = ("time [s]", "joint", "kind", "storey", "side", "spring", "cause", "force [N]")
+    return csv_text(header, (observer.break_row(entry, model) for entry in find_engine(yw.JointEngine).breaks))
+
+
+def write(folder, result, tables, model):
+    """Write all files, the summary last: where it is, the others are complete. Returns paths. Raises OSError."""
+    paths = tables.write(folder)
+    for name, text in ((HISTORY, recorded_history(find_engine(yw.HouseMonitor)).text()), (BREAKS, breaks_text(model))):
+        write_text(folder / name, text)
+        paths.append(folder / name)
+    return [*paths, result.write(folder)]

@@ -1,0 +1,225 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Starts run scripts, each in a YADE process of its own, several at a time.
+
+A task is done when its folder holds a summary.json made from the same options, files and package. `run_missing` starts
+the other tasks. An interrupted run continues from its checkpoint. run.json records how a run ended; run.log holds its
+messages.
+"""
+import json
+import math
+import os
+import shutil
+import signal
+import subprocess
+import time
+from collections import deque
+from contextlib import ExitStack
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from yade_timber.atomic_write import remove, write_text
+
+from ..base.errors import RunError
+from ..base.files import make_folder
+from ..base.json_types import require
+from ..base.lock import is_locked, locked
+from ..base.options import options
+from ..base.processors import processors
+from ..base.record_file import open_record, read_record, record
+from ..recording.summary import NAME as SUMMARY
+from ..recording.summary import Summary
+from ..run.identity import made_from
+from ..run.options import RunOptions
+
+END, LOG = "run.json", "run.log"
+DRIVER = ".driver"
+"""Lock of the driver that starts a run."""
+STATES = ("done", "failed", "unfinished")
+STOPS = ("SIGHUP", "SIGINT", "SIGKILL", "SIGTERM")
+"""Signals after which a run is continued; others are crashes."""
+END_OF_LOG = 100_000
+"""Part of a log in which the error message is looked for. [bytes]"""
+POLL = 0.2
+"""Wall time between two checks of the running processes. [s]"""
+SAVE_TIME = 60.0
+"""Longest wait for interrupted runs to save their checkpoints. [s]"""
+
+
+@dataclass(frozen=True)
+class Task:
+    """A run: script name without .py, folder of its results, RunOptions."""
+
+    script: str
+    folder: Path
+    options: RunOptions
+
+    def words(self):
+        """Arguments of the script: the options that decide results, and those with which the driver runs it."""
+        own = {"out": self.folder, "resume": True, "or_anew": True, "no_views": True, "quiet": True}
+        alone = dict.fromkeys(("ensemble", "jobs", "export")) | {
+            "report": False, "checkpoint": options(RunOptions)["checkpoint"].default
+        }
+        return replace(self.options, **own, **alone).words()
+
+    @property
+    def summary(self):
+        """Summary, or None if the run is not done or was made from other options, files or another package."""
+        table = _read(self.folder / SUMMARY)
+        return Summary.read(self.folder) if table and table.get("made_from") == made_from(self.options) else None
+
+    @property
+    def error(self):
+        """Error message of a failed run, None for others."""
+        recorded = (_read(self.folder / END) or {}).get("error")
+        return recorded if recorded and self.summary is None else None
+
+    @property
+    def status(self):
+        """One of STATES."""
+        return "failed" if self.error else "done" if self.summary is not None else "unfinished"
+
+    def record(self, error):
+        """Write run.json. error: message of a failed run, None of others"""
+        content = {"status": "failed" if error else "done", "error": error}
+        write_text(self.folder / END, json.dumps(content) + "\n")
+
+    def is_missing(self, retry):
+        """Whether the run is to be started; retry: failed runs, too."""
+        return self.summary is None and (retry or not self.error)
+
+
+def _read(path):
+    """Table of a JSON file, None without the file. Raises RunError."""
+    if not os.path.lexists(path):
+        return None
+    try:
+        return require(json.loads(read_record(path)), dict, "content")
+    except (ValueError, RecursionError) as problem:
+        if isinstance(problem, RunError):
+            raise
+        raise RunError(f"{path}: cannot be read: {problem}; remove it, or take another folder") from None
+
+
+def run_missing(tasks, scripts, jobs=None, report=print, retry=True):
+    """Run the tasks that are not done, `jobs` at a time (default: one per core); returns {task: summary or None}.
+
+    scripts  folder of the run scripts
+    report   called with one line for each run that ends
+    retry    whether failed runs are started again
+
+    Failed runs do not stop the others. Raises RunError without YADE, and KeyboardInterrupt after SIGINT or SIGTERM,
+    when the started runs have saved their checkpoints.
+    """
+    tasks = list(dict.fromkeys(tasks))
+    missing = [task for task in tasks if task.is_missing(retry)]
+    for task in set(tasks).difference(missing):
+        if not os.path.lexists(task.folder / END):  # its driver was killed before the run ended
+            task.record(None)
+    if missing:
+        report(f"{len(missing)} of {len(tasks)} runs to do")
+        _run_all(missing, scripts, jobs or processors(), report)
+    return {task: task.summary for task in tasks}
+
+
+def _run_all(tasks, scripts, jobs, report):
+    waiting, running, ended = deque(tasks), [], 0
+    previous = signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        while waiting or running:
+            while waiting and len(running) < jobs:
+                running.append(_Process(waiting.popleft(), scripts))
+            for process in [process for process in running if process.has_ended()]:
+                running.remove(process)
+                ended += 1
+                report(f"[{ended}/{len(tasks)}] {process.task.folder}: {process.outcome()}")
+            time.sleep(POLL if running else 0)
+    finally:
+        _stop(running)
+        signal.signal(signal.SIGTERM, previous)
+
+
+def _stop(processes):
+    """Interrupt the runs and wait until they have saved their checkpoints."""
+    for process in processes:
+        if process.child is not None:
+            process.child.terminate()
+    deadline = time.monotonic() + SAVE_TIME
+    while any(not process.has_ended() for process in processes) and time.monotonic() < deadline:
+        time.sleep(POLL)
+    for process in processes:
+        process.lock.close()
+
+
+class _Process:
+    """The YADE process of a task. None is started while another process computes a run in the task's folder."""
+
+    def __init__(self, task, scripts):
+        self.task, self.child, self.start = task, None, time.monotonic()
+        make_folder(task.folder)
+        self.outdated, self.lock = (task.folder / SUMMARY).exists(), ExitStack()
+        if is_locked(task.folder) or not self.lock.enter_context(locked(task.folder, DRIVER)):
+            return
+        for name in (END, SUMMARY):
+            remove(task.folder / name)
+        arguments = [*command(scripts / f"{task.script}.py"), *task.words()]
+        path = task.folder / LOG
+        with open_record(path, os.O_RDWR | os.O_CREAT | os.O_TRUNC) as log:
+            self.child = subprocess.Popen(arguments, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
+                                          start_new_session=True, env={**os.environ, "OMP_NUM_THREADS": "1"})
+
+    def has_ended(self):
+        return self.child is None or self.child.poll() is not None
+
+    def outcome(self):
+        """Record how the run ended; returns one line."""
+        with self.lock:
+            return self._recorded()
+
+    def _recorded(self):
+        if self.child is None or self.child.returncode and is_locked(self.task.folder):
+            return "skipped: another process computes this run"
+        ended_by = _signal(self.child.returncode)
+        if ended_by in STOPS:
+            return f"stopped by {ended_by}; the next start continues this run"
+        error = f"crashed ({ended_by}); see {self.task.folder / LOG}" if ended_by else self._error()
+        self.task.record(error)
+        if error:
+            return f"failed: {error}"
+        again = " again (other options, files or package)" if self.outdated else ""
+        return f"done{again} in {time.monotonic() - self.start:.0f} s"
+
+    def _error(self):
+        """Error message of the run, or None."""
+        if self.child.returncode:
+            return last_error(_end(self.task.folder / LOG), self.child.returncode)
+        if self.task.summary is None:
+            return (f"the run used other packages than those in {Path(__file__).parents[2]}: start this script with"
+                    " YADE's Python")
+        return None
+
+
+def last_error(text, status):
+    """Error message of a script that has ended with an exit status. text: what it printed"""
+    lines = [line.strip() for line in text.split("\n") if line.strip()]
+    return lines[-1].removeprefix("error: ") if lines else f"exit status {status}"
+
+
+def _end(path):
+    """The last text of a log."""
+    with record(path, limit=math.inf) as file:
+        file.seek(max(0, os.fstat(file.fileno()).st_size - END_OF_LOG))
+        return file.read(END_OF_LOG).decode(errors="replace")
+
+
+def _signal(status):
+    """Name of the signal that ended a process, None for another exit status."""
+    number = -status if status < 0 else status - 128
+    return signal.Signals(number).name if number in set(signal.Signals) else None
+
+
+def command(script, threads=1):
+    """Command line that runs a script in YADE. Raises RunError."""
+    yade = shutil.which("yade")
+    if yade is None:
+        raise RunError("no yade on the PATH: install it (scripts/setup)")
+    return [yade, "-n", "-x", f"-j{threads}", str(script)]

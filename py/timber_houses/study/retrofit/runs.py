@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Runs of a ranking: pilots that choose the strength of the motions, rounds of selection, the finalists' test."""
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+from yade_timber.atomic_write import write_text
+
+from ...base.errors import RunError
+from ...base.processors import processors
+from ...base.table import csv_text
+from ..batch import read_table, run_rows, write_runs
+from ..batch.table import COLUMNS
+from ..batch.tasks import check_rows, task_of
+from .candidates import AS_IT_IS
+from .race import Entry, cost, rounds, select
+
+TABLE = "table.csv"
+PILOTS = 6
+"""Number of motions under which the house as it is runs for the choice of their strength. [-]"""
+WEAKEST, STRONGEST = 1 / 16, 16
+"""Factors on the motions between which a strength is sought. [-]"""
+FINEST = 1.2
+"""Ratio of two factors that are not distinguished: as many motions differ. [-]"""
+
+
+@dataclass
+class Ranking:
+    """A ranking in a folder. motions: [(name, cells)], the first for selection; same: cells of all; scripts: folder"""
+
+    folder: Path
+    candidates: list
+    motions: list
+    same: dict
+    scripts: Path
+    jobs: int = None
+
+    def __post_init__(self):
+        self.folder = Path(self.folder)
+        self.house = Entry(AS_IT_IS, {})
+        self.entries = [Entry(candidate, {}) for candidate in self.candidates]
+
+    @property
+    def plan(self):
+        """race.rounds of the ranking."""
+        return rounds(len(self.motions), len(self.candidates))
+
+    @property
+    def tests(self):
+        """Names of the motions of the test."""
+        selection = ([0] + [done for done, _ in self.plan])[-2]
+        return [name for name, _ in self.motions[selection:]]
+
+    def check(self):
+        """Check all rows first: each candidate under the first motion, the house under all. Raises BatchError."""
+        rows = self._rows([(AS_IT_IS, motion) for motion in self.motions]
+                          + [(candidate, self.motions[0]) for candidate in self.candidates])
+        check_rows(rows, self.folder)
+
+    def choose_scale(self, report=print):
+        """Scale the motions so that half of the pilots bring the house down, by bisection; returns a sentence."""
+        pilots, scale, low, high, shares = self.motions[:PILOTS], 1.0, None, None, {}
+        while scale not in shares:
+            shares[scale] = self._pilot(pilots, scale) / len(pilots)
+            report(f"strength: motions times {scale:g} bring the house down in {shares[scale] * len(pilots):.0f} of"
+                   f" {len(pilots)} runs")
+            if abs(shares[scale] - 0.5) < 0.2:
+                break
+            low, high = (low, scale) if shares[scale] > 0.5 else (scale, high)
+            if low and high and high / low < FINEST:
+                break
+            between = math.sqrt(low * high) if low and high else 2 * low if low else high / 2
+            scale = float(f"{min(max(between, WEAKEST), STRONGEST):.3g}")
+        scale = min(shares, key=lambda one: (abs(shares[one] - 0.5), one if shares[one] > 0.5 else -one))
+        self.motions = [(name, {**cells, "scale": f"{scale:g}"}) for name, cells in self.motions]
+        fallen = f"{shares[scale] * len(pilots):.0f} of the first {len(pilots)}"
+        return (f"The motions are scaled by {scale:g}, at which {fallen} bring the house as it is down; --scale chooses"
+                " another strength.")
+
+    def _pilot(self, pilots, scale):
+        """Number of pilots, scaled, under which the house as it is collapses."""
+        house = Entry(AS_IT_IS, {})
+        self._run([(house, (name, {**cells, "scale": f"{scale:g}"})) for name, cells in pilots], house)
+        return sum(bool(run["collapsed"]) for run in house.runs.values())
+
+    def run(self, report=print):
+        """All rounds. report: called with a line after each. Raises RunError when a run of the house as it is fails."""
+        racing, pairs, before = self.entries, [], 0
+        for number, (done, count) in enumerate(self.plan, 1):
+            racing = select([entry for entry in racing if not entry.failed], self.house, count) if before else racing
+            pairs += [(entry, motion) for motion in self.motions[before:done] for entry in (self.house, *racing)]
+            runs = self._run(pairs, self.house)
+            left = cost(len(self.motions), len(self.candidates)) - len(pairs)
+            aim = "test" if number == len(self.plan) else "selection"
+            report(f"{aim}: {len(racing)} measures under {done - before} motions; {progress(runs, left, self.jobs)}")
+            before = done
+
+    def _run(self, pairs, house):
+        """Run [(Entry, motion)] and store the runs; returns the rows of runs.csv. house: Entry of the house as it is.
+        Raises RunError after a run that was stopped."""
+        rows = self._rows([(entry.candidate, motion) for entry, motion in pairs])
+        run_rows(rows, self.folder, self.scripts, self.jobs)
+        runs = write_runs(rows, self.folder)
+        for (entry, (motion, _)), run in zip(pairs, runs):
+            if run["status"] == "unfinished":
+                raise RunError(f"{run['run']} was stopped; the same command continues")
+            if run["status"] == "done":
+                entry.runs[motion] = run
+            elif entry is house:
+                raise RunError(f"the house as it is failed under {motion}: {run['error'] or run['status']}; nothing to"
+                               " compare with")
+            else:
+                entry.failed = run["error"] or run["status"]
+        return runs
+
+    def _rows(self, pairs):
+        """Rows of a batch table for [(candidate, motion)], written to the folder."""
+        cells = [{**self.same, **motion, **candidate.changes, "description": f"{candidate.name}_{name}"}
+                 for candidate, (name, motion) in pairs]
+        columns = [column for column in (*COLUMNS, "description") if any(column in row for row in cells)]
+        write_text(self.folder / TABLE,
+                   csv_text(columns, [[row.get(column, "") for column in columns] for row in cells]))
+        return read_table(self.folder / TABLE)
+
+    def task(self, entry, motion):
+        """Task of a run of an Entry under a motion's name, for its folder."""
+        cells = next(pair for pair in self.motions if pair[0] == motion)
+        return task_of(self._rows([(entry.candidate, cells)])[0], self.folder)
+
+
+def progress(runs, left, jobs):
+    """'24 runs, 31 s each; 36 runs left, about 10 min'. jobs: runs at a time, None: one per core"""
+    walls = [run["wall_s"] for run in runs if run["status"] == "done"]
+    each = sum(walls) / max(len(walls), 1)
+    rest = f"; {left} runs left, about {each * left / (jobs or processors()) / 60:.0f} min" if left > 0 else ""
+    return f"{len(runs)} runs, {each:.0f} s each{rest}"
