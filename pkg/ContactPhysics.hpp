@@ -70,7 +70,8 @@ public:
 			"points that ceased to exist, minus the energy given to new points. [J]")),
 		createIndex();,
 		.add_property("points", &ManifoldPhys::pyPoints, "Forces at the contact points on body 2, world frame: "
-			"list of (feature id, elastic normal force [N], elastic shear force [N], dashpot force [N]).")
+			"list of (feature id, elastic normal force [N], elastic shear force [N], dashpot force [N], "
+			"plastic overlap [m]).")
 	);
 	// clang-format on
 	REGISTER_CLASS_INDEX(ManifoldPhys, NormShearPhys);

@@ -162,7 +162,8 @@ double ContactSolver::squaredThreshold(double tolerance, double firstChanges) co
 		count += joint.count;
 	}
 	const double least = std::min(tolerance, restTolerance), rounding = std::min(tolerance, roundingTolerance);
-	const double bySize = std::max(std::min(tolerance * tolerance * size, firstChanges), least * least * size);
+	const double reduced = sweepReduction * sweepReduction * firstChanges;
+	const double bySize = std::max(std::min(tolerance * tolerance * size, reduced), least * least * size);
 	return std::max(bySize, rounding * rounding * twiceKinetic) / std::max(1., double(count));
 }
 
