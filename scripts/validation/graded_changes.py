@@ -16,7 +16,7 @@ the changes of MODEL_CHANGES: a house file has neither P-delta nor the radius of
 import math
 import sys
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -240,8 +240,8 @@ def median_drift(summaries, name, axis):
 def model_drift(case, path, axis, motion, law_options):
     """Of storey 1 in the lumped-mass model; 1 if a storey fails."""
     damped = Storey.stiffness if law_options["damping_stiffness"] == "initial" else Storey.tangent
-    drifts = response(case.storeys(path, axis), getattr(motion, axis), motion.dt, law_options["joint_damping"], damped)[1]
-    peaks, failed = before_failure(drifts)
+    storeys, ground = case.storeys(path, axis), getattr(motion, axis)
+    peaks, failed = before_failure(response(storeys, ground, motion.dt, law_options["joint_damping"], damped)[1])
     return 1.0 if failed else float(peaks[0])
 
 

@@ -5,10 +5,10 @@
         [--out results/validation]
 
 House: ubc3s.yaml. PB3D's values: docs/validation/ubc3s_reference.csv, which states motion and damping. Both drifts are
-displacements of a floor's centre against that below, in mm; corners are those of the slab of 7.28 m between the outer grid lines. The base
-shear is the change of momentum of all free members less the force of the ground motion, over SAMPLE. The record is not
-shipped; of the reference it is the part from START to END, without vertical motion, and QUIET after it. With an
-earlier end there are no residual drifts.
+displacements of a floor's centre against that below, in mm; corners are those of the slab of 7.28 m between the outer
+grid lines. The base shear is the change of momentum of all free members less the force of the ground motion, over
+SAMPLE. The record is not shipped; of the reference it is the part from START to END, without vertical motion, and QUIET
+after it. With an earlier end there are no residual drifts.
 """
 import csv
 import dataclasses

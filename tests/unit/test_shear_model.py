@@ -3,6 +3,7 @@
 """The lumped-mass model and the graded houses of scripts/validation, against closed forms and sums by hand."""
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,12 +11,14 @@ from scipy.signal import lsim
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts" / "validation"))
 
+import graded_changes as changes
 import graded_houses as graded
 import kobe_like
 import shear_model as shear
 import wall_grades as grades
 from house_storeys import AXES, column_ends, wall_joints, wall_springs
 from wall_spring import WallSpring
+from yade_timber.base.errors import RunError
 
 HEIGHT = 2.73
 """[m]"""
@@ -194,6 +197,24 @@ def test_peaks_count_until_a_storey_fails():
     peak, failed = graded.before_failure(drifts)
     assert peak.tolist() == [0.05, 0.02] and failed
     assert graded.before_failure(drifts[:2])[1] is False
+
+
+def test_rows_of_single_changes(tmp_path):
+    """Changes joined by +; a row without runs has empty drifts; finishes are scaled to the stated share of the rule."""
+    given = SimpleNamespace(changes="finishes 2.1 + damping 2 %, no P-delta", grades="1.25", levels="mean")
+    scaled, model_alone = changes.cases_of(given)
+    assert scaled.has_runs and not model_alone.has_runs
+    path = scaled.house_file(tmp_path, "law")
+    assert changes.finish_ratio(path) == pytest.approx(2.1)
+    assert changes.load_house(path).data["law"]["joint_damping"] == 0.02
+    assert changes.median_drift([], "centre", "ew") == ""
+    assert [storey.p_delta for storey in model_alone.storeys(path, "ew")] == [0.0, 0.0]
+
+
+@pytest.mark.parametrize("wrong", [{"changes": "siding + no such"}, {"grades": "2"}, {"levels": "low"}])
+def test_unknown_rows_are_refused(wrong):
+    with pytest.raises(RunError, match="known"):
+        changes.cases_of(SimpleNamespace(**{"changes": "siding", "grades": "1", "levels": "mean"} | wrong))
 
 
 # --- motion -----------------------------------------------------------------------------------------------------------

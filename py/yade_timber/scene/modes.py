@@ -5,8 +5,8 @@ sticking.
 K x = omega^2 M x with six degrees of freedom per free body. K has the present tangent stiffness of every contact point
 and joint spring, and the geometric stiffness of their present forces, by which weight softens a frame (P-delta). A
 negative omega^2 is an instability. Contacts that do not touch have no stiffness: the scene should have settled.
-Yielding joints have the stiffness with which they unload; walls that have not yielded, on request, that of the first line
-of their envelope.
+Yielding joints have the stiffness with which they unload; walls that have not yielded, on request, that of the first
+line of their envelope.
 
 Free motions are left out: of bodies that no springs join to a fixed body, and slower than SLOWEST.
 Modes of equal omega^2 have shapes by convention, so that a scene has one result, whatever was computed before.
