@@ -158,9 +158,8 @@ boost::python::list ManifoldPhys::pyPoints() const
 {
 	boost::python::list points;
 	for (const timber::PointRecord& p : records)
-		points.append(boost::python::make_tuple(
-		        p.id.bits, Real(p.normalForce), Vector3r(p.shearForce), Vector3r(p.dashpotForce),
-		        Real(p.crushed)));
+		points.append(boost::python::make_tuple(p.id.bits, Real(p.normalForce), Vector3r(p.shearForce),
+		        Vector3r(p.dashpotForce), Real(p.crushed)));
 	return points;
 }
 

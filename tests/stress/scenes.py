@@ -258,8 +258,8 @@ def table(random):
 
 
 def struck(random):
-    """A block of 0.3 to 5 t falls on light members that stand or lean between it and beams. They are crushed: an elastic
-    member, pressed until it slips, may leave with 90 m/s."""
+    """A block of 0.3 to 5 t falls on light members that stand or lean between it and beams. They are crushed: an
+    elastic member, pressed until it slips, may leave with 90 m/s."""
     ground()
     member = partial(placed, yt.box, bearing=6e6)
     for x in (-0.5, 0.5):
