@@ -5,6 +5,7 @@
 #pragma once
 #include "impact.hpp"
 #include "manifold.hpp"
+#include "portable_math.hpp"
 #include "solver_body.hpp"
 
 namespace timber {
@@ -60,8 +61,8 @@ struct PointRecord : PointHistory {
 template <class Number> Number powerOf(Number s, double q)
 {
 	if (q == 1.5) return s * sqrt(s);
-	if constexpr (std::is_same_v<Number, double>) return std::pow(s, q);
-	else return eachLane(s, [q](double x) { return std::pow(x, q); });
+	if constexpr (std::is_same_v<Number, double>) return power(s, q);
+	else return eachLane(s, [q](double x) { return power(x, q); });
 }
 
 } // namespace timber

@@ -36,7 +36,7 @@ struct Hardening {
 		const double q = c.power, stretch = 1 + d / c.overlap, share = 1 + middle / c.overlap;
 		const double power = powerOf(stretch, q);
 		// C ~ K^1/2 ~ n^((q-1)/2)
-		const double root = q == 1.5 ? std::sqrt(std::sqrt(share)) : std::pow(share, (q - 1) / 2);
+		const double root = q == 1.5 ? std::sqrt(std::sqrt(share)) : timber::power(share, (q - 1) / 2);
 		force = c.hardening * (power - 1 - q * (stretch - 1));
 		slope = c.hardening * q / c.overlap * (power / stretch - 1);
 		damping = c.damping * (root - 1);
