@@ -98,7 +98,9 @@ namespace {
 			phys.placedEnergy += phys.records[k].normalStored;
 			phys.placedOverlap = math::max(phys.placedOverlap, Real(phys.records[k].overlap));
 		}
-		if (phys.records.empty()) phys.normalForce = phys.shearForce = Vector3r::Zero();
+		phys.isActing = !std::all_of(phys.records.begin(), phys.records.end(),
+		        [](const timber::PointRecord& r) { return r.isIdle(); });
+		if (!phys.isActing) phys.normalForce = phys.shearForce = Vector3r::Zero();
 		return true;
 	}
 

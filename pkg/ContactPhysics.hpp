@@ -39,6 +39,7 @@ public:
 	/// Of bodies that were placed in contact, in this step only: of all springs [J], of the deepest point [m]
 	Real placedEnergy = 0, placedOverlap = 0;
 	timber::BearingStrength strength; ///< of each point, in this step
+	bool isActing = true; ///< whether one of the points is not idle in this step
 	/// No contact points, and no energy released in the last step.
 	bool isIdle() const { return records.empty() && releasedEnergy == 0; }
 	timber::PairProperties properties() const

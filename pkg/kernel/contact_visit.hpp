@@ -149,6 +149,8 @@ struct ShearAccount {
 	// (8), (2)
 	PointStep::Quad u = c.velocity + velocity.dots(c.rows), p = c.factor * c.impulse + c.bias - c.mass * u;
 	const double pn = normalImpulse(c, u[0], p[0]);
+	// No shear without a normal impulse
+	if (pn == 0 && c.impulse[0] == 0 && c.impulse[1] == 0 && c.impulse[2] == 0) return 0;
 	const PointStep::Quad slip = (pn - c.impulse[0]) * c.column; // caused by the change of the normal impulse
 	p -= c.mass * slip; // (4)
 	p[0] = pn;
