@@ -6,6 +6,8 @@
 #include <Materials.hpp>
 #include <kernel/contact_pair.hpp>
 #include <pkg/common/NormShearPhys.hpp>
+#include <array>
+#include <boost/serialization/array.hpp>
 
 namespace boost {
 namespace serialization {
@@ -30,6 +32,8 @@ namespace serialization {
 }
 
 namespace yade {
+
+using SourceNumbers = std::array<Real, 9>; ///< of ManifoldPhys
 
 /// Base of all contact laws' IPhys. YADE's functions read the attributes of NormShearPhys: the forces of the last step.
 class ManifoldPhys : public NormShearPhys {
@@ -65,7 +69,7 @@ public:
 		((Real, power, timber::HertzLaw::power, Attr::readonly, "Exponent of the contact law. [-]"))
 		((vector<timber::PointRecord>, records, , Attr::hidden, "History of the contact points, sorted by "
 			"feature id. [-]"))
-		((vector<Real>, source, , Attr::hidden, "Numbers of the materials and of the Ip2 functor from which the "
+		((SourceNumbers, source, , Attr::hidden, "Numbers of the materials and of the Ip2 functor from which the "
 			"attributes were computed."))
 		((Real, releasedEnergy, 0, Attr::readonly, "Elastic energy released in the last step with loaded "
 			"points that ceased to exist, minus the energy given to new points. [J]")),
