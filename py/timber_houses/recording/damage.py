@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 
 from .frames import Elements, Joints, placed, rotated
-from .summary import Broken, Columns, JointCounts
+from .summary_parts import Broken, Columns, JointCounts
 from .verdict import FALL, Structure
 from .walls import of_walls, sheet_states
 

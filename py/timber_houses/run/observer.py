@@ -17,7 +17,7 @@ from ..motion import GroundMotion, displacement
 from ..recording import frames
 from ..recording.damage import SIDES, DamageSurvey, Level, State
 from ..recording.events import Collapse, EventLog, FirstBreak, OwnWeight, Tilt
-from ..recording.summary import ModesAt
+from ..recording.summary_parts import ModesAt
 from ..recording.verdict import TILT, UNDAMAGED
 from ..scene.scenario import level_marks
 from .modal import modes_now

@@ -89,9 +89,9 @@ class RunOptions(MotionRequest):
     or_anew: bool = option(bool, "with --resume: start anew when the checkpoint cannot be used, instead of an error",
                            group="expert", decides=False)
 
-    name: str = None
-    town: str = None
-    ground_motion: GroundMotion = None
+    name: str | None = None
+    town: str | None = None
+    ground_motion: GroundMotion | None = None
     source: OptionSource = field(default=OptionSource(), compare=False, repr=False)
 
     error = RunError

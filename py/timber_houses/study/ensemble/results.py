@@ -10,7 +10,7 @@ from ...base.table import csv_text
 from ...house.disturbance import LARGEST
 from ...recording import frames
 from ...recording.ensemble import NAME, TABLE
-from ...recording.summary import Ensemble
+from ...recording.summary_parts import Ensemble
 from ...recording.verdict import TILT
 from ...text.english import counted, ratio, sentence, span
 from . import statistics
