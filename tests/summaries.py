@@ -5,7 +5,8 @@ from types import UnionType
 from typing import get_origin
 
 from timber_houses.base.json_types import types
-from timber_houses.recording.summary import Record, Summary
+from timber_houses.recording.summary import Summary
+from timber_houses.recording.summary_parts import Record
 
 
 def blank(kind):

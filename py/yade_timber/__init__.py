@@ -22,7 +22,7 @@ __version__ = "0.1.0"
 IN_YADE = ("SlipLaw", "box", "connect", "contacts", "energy", "energy_residual", "engines", "export_scene", "guard",
            "polyhedron", "set_velocity", "snow", "stable_dt", "timber")
 """Names that need a YADE session. There is no __all__: help() would print each of these functions in full."""
-_class_names = ()
+_class_names: list[str] = []
 
 if _host.running():
     import yade.wrapper as _wrapper

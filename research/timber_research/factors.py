@@ -127,8 +127,8 @@ FACTORS = (
         Level("braces joined to beams only", rules(brace_sides=None)),
         Level("braces joined to beams and columns", rules(brace_sides=BRACE_SIDES)))),
     Factor("reading", "values of the connection", (
-        Level("values of each spring", {"law": {"joint_reading": "spring"}}),
-        Level("values of the connection", {"law": {"joint_reading": "joint"}}))),
+        Level("values of each spring", {"law": {"per": "spring"}}),
+        Level("values of the connection", {"law": {"per": "joint"}}))),
     Factor("fittings", "two fittings a column end", (
         Level("one fitting at a column end", rules(column_ends={"number": 1})),
         Level("two fittings at a column end", rules(column_ends={"number": 2})))),

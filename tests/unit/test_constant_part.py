@@ -112,8 +112,7 @@ def test_no_warning_for_motions_as_recorded(tmp_path):
 
 @pytest.mark.filterwarnings("error")
 def test_noise_of_a_component_without_motion(tmp_path):
-    """A vertical of the last digit is none of the house's concern; neither is a motion of zeros, nor a constant one
-    once it is removed.
+    """No warning of a vertical of the last digit, of a motion of zeros, nor of a constant part that is removed.
     """
     read_motion(plain(tmp_path, WAVES * (1, 1, 0) + (0, 0, 0.01)))
     read_motion(plain(tmp_path, 0 * WAVES))

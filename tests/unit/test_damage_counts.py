@@ -9,7 +9,7 @@ from yade import O
 from yade.minieigenHP import Quaternion, Vector3
 from timber_houses.motion import GroundMotion, default_motion, onset
 from timber_houses.recording.events import Collapse, ColumnsLost, Tilt
-from timber_houses.recording.summary import Columns
+from timber_houses.recording.summary_parts import Columns
 from timber_houses.run import observer
 from timber_houses.run.progress import Bar, Status
 from timber_houses.run.plan import record

@@ -92,4 +92,4 @@ def test_results_made_from_something_else_are_not_taken(tmp_path, monkeypatch):
     monkeypatch.setattr(identity, "package", lambda: "another")
     task = Task("run", tmp_path / "a", RunOptions(house=str(house), record=str(record), scale=2.0))
     assert task.summary is None and run_missing([task], scripts, 1, said.append) == {task: None}
-    assert task.status == "failed" and "another yade_timber" in task.error and task.error in said[-1]
+    assert task.status == "failed" and "another timber_houses" in task.error and task.error in said[-1]

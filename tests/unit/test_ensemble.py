@@ -25,7 +25,8 @@ from timber_houses.house.disturbance import LARGEST, disturb
 from timber_houses.pictures import bands, provenance
 from timber_houses.recording import ensemble, frames
 from timber_houses.recording.history import History
-from timber_houses.recording.summary import Ensemble, Summary
+from timber_houses.recording.summary import Summary
+from timber_houses.recording.summary_parts import Ensemble
 from timber_houses.run.identity import made_from
 from timber_houses.run.options import RunOptions, scripted
 from timber_houses.study import driver

@@ -10,7 +10,8 @@ from summaries import sample_summary
 from timber_houses.base.json_types import encode
 from timber_houses.recording.damage import DamageSurvey, Level, State
 from timber_houses.recording.events import ColumnsLost, Event, EventLog, OwnWeight, SnowFallen, StructureFallen
-from timber_houses.recording.summary import Columns, JointCounts, Summary
+from timber_houses.recording.summary import Summary
+from timber_houses.recording.summary_parts import Columns, JointCounts
 from timber_houses.recording.verdict import Structure, passed
 from timber_houses.recording.walls import count_apart
 from timber_houses.text.english import event, joint_place, own_weight, sentence

@@ -84,8 +84,8 @@ def test_structures_are_not_jointed_to_each_other(tmp_path):
     assert model.counts()["joints_by_kind"] == {"column_beam": 24, "brace_beam": 4, "beam_beam": 8}
 
 
-def test_joint_types_override_the_joint_reading(tmp_path):
-    text = STOREHOUSE + "law: {joint_reading: joint}\n"
+def test_joint_types_override_the_law(tmp_path):
+    text = STOREHOUSE + "law: {per: joint}\n"
     assert {joint.per for joint in build(tmp_path, text).joints} == {"joint"}
     assert {
         joint.per

@@ -11,6 +11,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
+import timber_houses
 import yade_timber
 
 
@@ -26,13 +27,13 @@ def pages(tmp_path_factory):
 def entries(pages):
     """Names with an entry in the API pages."""
     return set(
-        re.findall(r'<dt class="sig[^>]* id="yade_timber\.([\w.]+)"', "".join(
+        re.findall(r'<dt class="sig[^>]* id="(?:yade_timber|timber_houses)\.([\w.]+)"', "".join(
             page.read_text() for page in (pages / "api").glob("*.html"))))
 
 
 def test_every_public_name_has_an_entry(pages):
     found = entries(pages)
-    names = {*yade_timber.EVERYWHERE, *yade_timber.IN_YADE} - {"house"}  # the call of House
+    names = {*dir(timber_houses), *yade_timber.IN_YADE} - {"house"}  # the call of House
     assert names - found == set()
     assert {"motion.read_motion", "TimberJoint.kn", "ContactForces.largestEigenvalue"} <= found
 

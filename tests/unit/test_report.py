@@ -17,7 +17,8 @@ from timber_houses.pictures import figures, quantities, report, report_pictures
 from timber_houses.recording import peaks
 from timber_houses.recording.failures import first_failures
 from timber_houses.recording.events import Collapse, Event, SnowFallen
-from timber_houses.recording.summary import Mode, ModesAt, Summary, Weight
+from timber_houses.recording.summary import Summary
+from timber_houses.recording.summary_parts import Mode, ModesAt, Weight
 from timber_houses.recording.quantities import SUSTAINED, Storeys, band_limited, ground_velocity, storeys
 from timber_houses.recording.frames import Motion, load
 from timber_houses.run.options import RunOptions, scripted

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from summaries import sample_summary
 from timber_houses.base.errors import RunError
-from timber_houses.recording.summary import OtherWalls, Walls
+from timber_houses.recording.summary_parts import OtherWalls, Walls
 from timber_houses.run import cli
 from timber_houses.run.plan import planned
 from timber_houses.text.english import other_walls

@@ -8,14 +8,14 @@ from yade_timber import host
 
 from ..base.errors import RunError
 from ..base.options import read_keywords
-from ..run.options import Door, RunOptions
+from ..run.options import OptionSource, RunOptions
 from .house import House
 from .motion import source_of
 from .result import RunResult
 
 RESULTS = Path("results")
-DOOR = Door(name=str, earthquake="give motion='shipped', a record, or seed",
-            pictures=lambda folder: f"th.load_run({str(folder)!r}).player()")
+SOURCE = OptionSource(name=str, earthquake="give motion='shipped', a record, or seed",
+                      pictures=lambda folder: f"th.load_run({str(folder)!r}).player()")
 INSTEAD = {"quake": "give motion='shipped'", "record": "give motion='FILE_OR_PREFIX'", "export": "call export_scene",
            **dict.fromkeys(("ensemble", "jobs"), "scripts/house.py has it")}
 """Options of the command line that are no keywords, and what takes their place."""
@@ -74,7 +74,8 @@ def run(house, motion=None, snow=None, duration=None, out=None, **options):
     record, ground_motion = (None, None) if motion is None else source_of(motion)
     shaking = {"record": record, "ground_motion": ground_motion,
                "quake": motion is not None and record is ground_motion is None}
-    return _complete(RunOptions(house=house.given, door=DOOR, **{"out": _default_folder(house), **keywords, **shaking}))
+    return _complete(RunOptions(house=house.given, source=SOURCE,
+                                **{"out": _default_folder(house), **keywords, **shaking}))
 
 
 def _complete(options):

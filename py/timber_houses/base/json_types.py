@@ -4,27 +4,20 @@ X | None.
 
 A class with another form has a class method `decoded(value, path)`. Entries that no field has are left out.
 """
-from dataclasses import MISSING, field, fields, is_dataclass, make_dataclass
+from dataclasses import MISSING, field, fields, is_dataclass
 from functools import cache
 from types import UnionType
-from typing import get_args, get_origin, get_type_hints
+from typing import Any, get_args, get_origin, get_type_hints
 
 
-def optional(kind):
-    """Type and field of an entry that is written only if it is not None."""
-    return kind | None, field(default=None, metadata={"omitted": True})
+def optional() -> Any:
+    """Field of an entry that is written only if it is not None."""
+    return field(default=None, metadata={"omitted": True})
 
 
-def others(kind):
-    """Type and field of further entries, a dict[str, kind] that is written beside the other fields."""
-    return dict[str, kind], field(default_factory=dict, metadata={"others": True})
-
-
-def table(name, **types):
-    """A frozen dataclass. types: {field: type, or what `optional` and `others` return}"""
-    return make_dataclass(
-        name, [(key, *kind) if isinstance(kind, tuple) else (key, kind) for key, kind in types.items()], frozen=True
-    )
+def further() -> Any:
+    """Field of further entries, a dict that is written beside the other fields."""
+    return field(default_factory=dict, metadata={"others": True})
 
 
 def encode(value):

@@ -44,8 +44,8 @@ def is_given(values, name):
 def check_ranges(values, name, error):
     """Raise `error` for a value out of its range. name: function that names an option in messages"""
     for each in options(type(values)).values():
-        value, low, high, choices = getattr(values, each.name), *(each.metadata[key]
-                                                                  for key in ("low", "high", "choices"))
+        value = getattr(values, each.name)
+        low, high, choices = (each.metadata[key] for key in ("low", "high", "choices"))
         if value is None:
             continue
         if choices and value not in choices:

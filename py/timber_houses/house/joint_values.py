@@ -66,7 +66,7 @@ def joint_values(data, rule, part=1):
     return {"at": table["at"], "type": rule["type"], "kind": rule["kind"], "law": table["law"],
             "kn": factor * table["kn"], "ks": factor * table["ks"],
             "strength": factor * table["strength"] if rule["strength"] is None else part * rule["strength"],
-            "per": table["per"] or data["law"]["joint_reading"],
+            "per": table["per"] or data["law"]["per"],
             "damping_ratio": data["law"]["joint_damping"] if table["damping_ratio"] is None else table["damping_ratio"],
             "initial_damping": data["law"]["damping_stiffness"] == "initial",
             **{key: table[key] for key in SLIP_KEYS}}

@@ -141,7 +141,7 @@ HOUSE = Record({
     "description": Text(""),
     "materials": MapOf(material),
     "friction": ListOf(Record({"between": ListOf(word(), 2), "coefficient": Number("", 0.0, 2.0)})),
-    "law": Record({"joint_reading": Choice(("spring", "joint"), "joint"),
+    "law": Record({"per": Choice(("spring", "joint"), "joint"),
                    "joint_damping": Number("", 0.0, 1.0, default=0.0),
                    "damping_stiffness": Choice(("tangent", "initial"), "tangent"),
                    "wall_level": Choice(WALL_LEVELS, "mean"),

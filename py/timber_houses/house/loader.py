@@ -20,7 +20,7 @@ def load_table(path):
     return reduce(merge, reversed([table for _, table in _chain(Path(path))]))
 
 
-_known_chains = {}
+_known_chains: dict = {}
 """{house file: [(file, text)] of its chain}: studies ask for the same chains thousands of times."""
 
 

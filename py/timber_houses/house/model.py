@@ -102,7 +102,7 @@ class HouseModel:
     materials: dict  # name -> {'law': 'timber', 'density', 'young', 'poisson'} or
     # {'law': 'snow', 'density', 'stiffness_per_kg'}
     friction: list  # [(material, material, coefficient)]
-    law: dict  # 'joint_reading', ...; 'wall_level': None without walls of a rated multiplier
+    law: dict  # 'per', ...; 'wall_level': None without walls of a rated multiplier
     snow_depth: float  # [m]
     storey_levels: dict  # group -> {storey: (z foot, z head) of its columns [m]}
     grids: dict  # group -> {'x': positions of its nodes [m], 'y': likewise}

@@ -36,7 +36,7 @@ class Lot:
     x: float
     y: float
     rotation: float = 0.0
-    snow: float = None
+    snow: float | None = None
     where: str = ""
 
     @property

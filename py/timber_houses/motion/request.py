@@ -2,9 +2,11 @@
 """Request for a ground motion: source and processing as options."""
 from dataclasses import dataclass
 from functools import partial
+from typing import ClassVar
 
 import numpy as np
 
+from ..base.errors import InputError
 from ..base.options import add_options, check_ranges, command_option, is_given, option, options, read_arguments
 from .constant_part import warn_of_constant_part
 from .processing import highpass, remove_polynomial, resample, scaled_to_intensity, scaled_to_pga, trim, turned
@@ -44,7 +46,7 @@ class MotionRequest:
         "all other options apply to each of them, too", "RECORDS")
     gap: float = option(float, f"quiet between the records of a sequence [s] (default {DEFAULT_GAP:g})", "S", 0, 1000)
 
-    error = RecordError
+    error: ClassVar[type[InputError]] = RecordError
     """Raised by `check`."""
 
     @property

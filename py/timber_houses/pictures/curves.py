@@ -6,6 +6,7 @@ import numpy as np
 from yade_timber.energy_terms import ELASTIC
 
 from ..base import colors
+from ..recording.verdict import TILT
 from ..recording.walls import of_walls, sheet_states
 from ..text.english import DRIFT_LINES
 from .energy import TERMS
@@ -56,8 +57,8 @@ def page(frames, dpi):
 
 
 def draw_events(axes, summary):
-    """Lines through all axes where a storey drift passes 1/10 and where the house collapses, with labels above."""
-    for time, text, side in ((summary.tilt_time_s, "drift 1/10", "right"),
+    """Lines through all axes where a storey drift passes the tilt and where the house collapses, with labels above."""
+    for time, text, side in ((summary.tilt_time_s, f"drift {TILT.ratio}", "right"),
                              (summary.collapse_time_s, "collapses", "left")):
         if time is not None:
             for axis in axes:

@@ -17,7 +17,8 @@ EAST_ASIAN = ("IPAexGothic", "IPAPGothic", "IPAGothic", "TakaoPGothic", "TakaoGo
 PACKAGE = "fonts-ipafont-gothic"
 FILES = ("ipa", "takao", "vl-", "notosanscjk", "wqy")
 """How their files' names begin."""
-_missed, _used = set(), set()
+_missed: set = set()
+_used: set = set()
 
 
 @cache

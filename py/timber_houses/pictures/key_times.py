@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..recording.summary import collapse_time
+from ..recording.verdict import TILT
 from ..text.english import counted, ratio, short
 
 PANELS = 6
@@ -76,7 +77,7 @@ def differences(frames, frame):
 def named(frames):
     """(time [s], reason) of the times that have a name, the most important first."""
     summary = frames.summary
-    for kind, reason in (("collapse", "collapse"), ("tilt", "drift 1/10")) if summary else ():
+    for kind, reason in (("collapse", "collapse"), ("tilt", f"drift {TILT.ratio}")) if summary else ():
         time = getattr(summary, f"{kind}_time_s")
         if time is not None:
             lot = next((event.lot for event in summary.events if event.kind == kind), None)

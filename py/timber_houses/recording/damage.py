@@ -13,8 +13,8 @@ from functools import cached_property
 import numpy as np
 
 from .frames import Elements, Joints, placed, rotated
-from .summary import Broken, Columns, JointCounts
-from .verdict import Structure
+from .summary_parts import Broken, Columns, JointCounts
+from .verdict import FALL, Structure
 from .walls import of_walls, sheet_states
 
 SIDES = ("north", "south", "east", "west", "inside")
@@ -139,9 +139,9 @@ class DamageSurvey:
                 if level.structure == structure and not np.isnan(moved[level.marks, 0]).all()]
 
     def fallen_structures(self, state):
-        """Names of the structures of which a level has come down by half its storey."""
+        """Names of the structures of which a level has come down by FALL of its storey."""
         return [name for name in self.structures
-                if any(-move[2] > height / 2 for move, height in self._moves(state, name))]
+                if any(-move[2] > FALL * height for move, height in self._moves(state, name))]
 
     def drift(self, state, structure):
         """Largest storey drift of a structure, N-S or E-W. [-]"""

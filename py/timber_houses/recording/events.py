@@ -8,22 +8,80 @@ StrongestShaking, LevelPassed: of the player, not recorded.
 """
 from dataclasses import dataclass, field
 
-from ..base.json_types import decode, encode, require, table
+from ..base.json_types import decode, encode, require
 from .verdict import Structure
 
-FirstBreak = table("FirstBreak", joint=str, storey=str, side=str, cause=str, force_n=float)
-"""Of a spring. joint: kind of its joint; storey, side, cause: as in breaks.csv; force_n: 0 after yielding [N]"""
-Tilt, Collapse = table("Tilt", direction=str), table("Collapse")
-OwnWeight = table("OwnWeight", snow=bool, structures=dict[str, Structure])
-"""structures: all of the house, the main one first"""
-StructureFallen = table("StructureFallen", structure=str)
-ColumnsLost = table("ColumnsLost", number=int, total=int)
-"""number: of `total` columns, inclined by more than 45 degrees or without a joint"""
-SnowFallen = table("SnowFallen", structure=str, side=str, layer=str)
-"""structure: '' for the main one; side: '' for a roof of one part; layer: 'roof' or 'roof2'"""
-ShakingBegins, StrongestShaking, LevelPassed = (table("ShakingBegins"), table("StrongestShaking"),
-                                                table("LevelPassed", drift=float))
-"""drift: one of verdict.LIMITS [-]"""
+
+@dataclass(frozen=True)
+class FirstBreak:
+    """Of a spring. joint: kind of its joint; storey, side, cause: as in breaks.csv; force_n: 0 after yielding [N]"""
+
+    joint: str
+    storey: str
+    side: str
+    cause: str
+    force_n: float
+
+
+@dataclass(frozen=True)
+class Tilt:
+    """direction: 'ns' or 'ew'"""
+
+    direction: str
+
+
+@dataclass(frozen=True)
+class Collapse:
+    pass
+
+
+@dataclass(frozen=True)
+class OwnWeight:
+    """structures: all of the house, the main one first"""
+
+    snow: bool
+    structures: dict[str, Structure]
+
+
+@dataclass(frozen=True)
+class StructureFallen:
+    structure: str
+
+
+@dataclass(frozen=True)
+class ColumnsLost:
+    """number: of `total` columns, inclined by more than 45 degrees or without a joint"""
+
+    number: int
+    total: int
+
+
+@dataclass(frozen=True)
+class SnowFallen:
+    """structure: '' for the main one; side: '' for a roof of one part; layer: 'roof' or 'roof2'"""
+
+    structure: str
+    side: str
+    layer: str
+
+
+@dataclass(frozen=True)
+class ShakingBegins:
+    pass
+
+
+@dataclass(frozen=True)
+class StrongestShaking:
+    pass
+
+
+@dataclass(frozen=True)
+class LevelPassed:
+    """drift: one of verdict.LIMITS [-]"""
+
+    drift: float
+
+
 RECORDED = {"first_break": FirstBreak, "tilt": Tilt, "collapse": Collapse, "own_weight": OwnWeight,
             "structure_fallen": StructureFallen, "columns_lost": ColumnsLost, "snow_fallen": SnowFallen}
 KINDS = {**RECORDED, "shaking_begins": ShakingBegins, "strongest_shaking": StrongestShaking, "level": LevelPassed}

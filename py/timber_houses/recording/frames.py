@@ -176,10 +176,10 @@ class Frames:
     load: list = field(default_factory=list)
     broken: list = field(default_factory=list)
     contacts: Contacts = field(default_factory=Contacts)
-    motion: Motion = None
-    summary: Summary = None
-    history: History = None
-    breaks: dict = None
+    motion: Motion | None = None
+    summary: Summary | None = None
+    history: History | None = None
+    breaks: dict | None = None
     run: str = ""
 
     def __repr__(self):

@@ -17,7 +17,7 @@ from h5py import h5a, h5d, h5l, h5o, h5s, h5t
 from ..base.record_file import MAX_JSON, record
 
 FAULTS = (OSError, LookupError, ValueError, TypeError, AttributeError, RuntimeError, MemoryError)
-"""Of h5py, numpy or json, for a file that is none of ours."""
+"""Errors of h5py, numpy or json for a file of another format."""
 KINDS = {"number": "fiu", "whole": "iu", "flag": "b"}
 """Kinds of entries, but for 'text' (strings of variable length), as kinds of numpy."""
 TEXT_ENTRY = 16

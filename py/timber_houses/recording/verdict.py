@@ -25,9 +25,14 @@ class Limit:
     source: str
 
     @property
+    def ratio(self):
+        """'1/30'."""
+        return f"1/{round(1 / self.drift)}"
+
+    @property
     def text(self):
         """'1/30 safety limit'."""
-        return f"1/{round(1 / self.drift)} {self.name}"
+        return f"{self.ratio} {self.name}"
 
 
 DAMAGE = Limit(1 / 120, "damage limit", "Building Standard Law of Japan, Enforcement Order, Article 82-2: 1/200, eased"
@@ -36,6 +41,8 @@ SAFETY = Limit(1 / 30, "safety limit", "Japan Building Disaster Prevention Assoc
                " houses; limit strength calculation")
 TILT = Limit(1 / 10, "tilt", "this package: the weight of the upper storey begins to overturn the house")
 LIMITS = (DAMAGE, SAFETY, TILT)
+FALL = 1 / 2
+"""Height by which a level of a collapsed structure has come down, over that of its storey. [-] HouseMonitor, too."""
 
 
 @dataclass(frozen=True, kw_only=True)

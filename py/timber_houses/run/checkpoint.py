@@ -15,6 +15,7 @@ import json
 import os
 import re
 import resource
+from dataclasses import dataclass
 from pathlib import Path
 
 import yade.wrapper as yw
@@ -22,15 +23,27 @@ from yade_timber import _class_names
 
 from ..base.errors import RunError, os_errors
 from ..base.files import written_from_memory
-from ..base.json_types import decode, table
+from ..base.json_types import decode
 from ..base.record_file import record
 from ..recording.events import Event
-from ..recording.summary import ModesAt
+from ..recording.summary_parts import ModesAt
 
 NAME = "checkpoint.yade"
 REMEDY = "run without --resume to start anew"
-Progress = table("Progress", wall_s=float, samples=int, events=list[Event], peaks=dict[str, float],
-                 modes=ModesAt | None, upright=list)
+
+
+@dataclass(frozen=True)
+class Progress:
+    """What a checkpoint holds besides the scene."""
+
+    wall_s: float
+    samples: int
+    events: list[Event]
+    peaks: dict[str, float]
+    modes: ModesAt | None
+    upright: list
+
+
 CLASSES = {*_class_names, "Aabb", "ForceResetter", "InsertionSortCollider", "InteractionLoop"}
 """Classes of objects in a run's scene."""
 O = yw.Omega()

@@ -5,7 +5,7 @@ import yade.wrapper as yw
 
 from ..recording.history import DIRECTIONS
 from ..recording.quantities import AXES
-from ..recording.summary import Mode, ModesAt
+from ..recording.summary_parts import Mode, ModesAt
 from ..scene.modes import natural_modes
 
 ROUNDING = 1e-6

@@ -17,8 +17,8 @@ from ..motion import GroundMotion, displacement
 from ..recording import frames
 from ..recording.damage import SIDES, DamageSurvey, Level, State
 from ..recording.events import Collapse, EventLog, FirstBreak, OwnWeight, Tilt
-from ..recording.summary import ModesAt
-from ..recording.verdict import UNDAMAGED
+from ..recording.summary_parts import ModesAt
+from ..recording.verdict import TILT, UNDAMAGED
 from ..scene.scenario import level_marks
 from .modal import modes_now
 
@@ -150,6 +150,7 @@ class Observer:
         self.peaks = progress["peaks"] if progress else dict.fromkeys(self.survey.structures, 0.0)
         self.modes = decode(ModesAt | None, progress["modes"]) if progress else None
         self.upright = progress["upright"] if progress else (0.0, [])
+        find_engine(yw.HouseMonitor).tiltDrift = TILT.drift
         motion = describe_motion()
         self.shaking = motion and motion.first(HARMFUL)
 

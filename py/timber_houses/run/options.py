@@ -22,14 +22,15 @@ MOST_RUNS = 999
 """Largest number of runs of an ensemble."""
 MOST_SEED = 2**32 - 1
 """Largest seed of a disturbance."""
-ALONE = {"resume": "an ensemble always continues", "or_anew": "an ensemble repeats runs that cannot be continued",
-         "export": "it writes the scene of one run", "disturb": "the runs of an ensemble have the seeds 2 to N",
-         "checkpoint": "its runs save checkpoints at the default interval"}
-"""Options of a run of its own, and why an ensemble excludes them."""
+EXCLUDED_BY_ENSEMBLE = {
+    "resume": "an ensemble always continues", "or_anew": "an ensemble repeats runs that cannot be continued",
+    "export": "it writes the scene of one run", "disturb": "the runs of an ensemble have the seeds 2 to N",
+    "checkpoint": "its runs save checkpoints at the default interval"}
+"""Options that an ensemble excludes, and why."""
 
 
 @dataclass(frozen=True)
-class Door:
+class OptionSource:
     """Where options come from. name: function that names an option; earthquake: remedy without an earthquake;
     pictures: function that gives the command for the pictures of a folder
     """
@@ -39,7 +40,7 @@ class Door:
     pictures: Callable = lambda folder: f"scripts/show/show_run.py {quote(str(folder))}"
 
 
-SCRIPT = Door(earthquake="use a script of a run with an earthquake")
+SCRIPT = OptionSource(earthquake="use a script of a run with an earthquake")
 
 
 @dataclass(frozen=True)
@@ -88,10 +89,10 @@ class RunOptions(MotionRequest):
     or_anew: bool = option(bool, "with --resume: start anew when the checkpoint cannot be used, instead of an error",
                            group="expert", decides=False)
 
-    name: str = None
-    town: str = None
-    ground_motion: GroundMotion = None
-    door: Door = field(default=Door(), compare=False, repr=False)
+    name: str | None = None
+    town: str | None = None
+    ground_motion: GroundMotion | None = None
+    source: OptionSource = field(default=OptionSource(), compare=False, repr=False)
 
     error = RunError
 
@@ -114,11 +115,11 @@ class RunOptions(MotionRequest):
     def shaken(self):
         """Whether the run has an earthquake. A script that gives its loads decides it alone."""
         record = self.record is not None or self.seed is not None or self.ground_motion is not None
-        return self.quake or record and self.door != SCRIPT
+        return self.quake or record and self.source != SCRIPT
 
     def named(self, name):
         """An option as the user knows it: --joint-damping, run: joint_damping, table.txt:3, column joint_damping."""
-        return self.door.name(name)
+        return self.source.name(name)
 
     def say(self, text):
         """Print a line, unless the run is quiet."""
@@ -130,14 +131,15 @@ class RunOptions(MotionRequest):
         super().check(self.named)
         if not self.shaken:
             for name in self.given():
-                raise RunError(f"{self.named(name)}: this run has no earthquake; {self.door.earthquake}")
+                raise RunError(f"{self.named(name)}: this run has no earthquake; {self.source.earthquake}")
         if self.report and self.no_frames:
             raise RunError(f"{self.named('report')} and {self.named('no_frames')} exclude each other: a report shows"
                            " recorded frames")
         if self.jobs is not None and self.ensemble is None:
             raise RunError(f"{self.named('jobs')} {self.jobs}: belongs to an ensemble; give {self.named('ensemble')} N")
-        for name in filter(lambda each: self.ensemble is not None and is_given(self, each), ALONE):
-            raise RunError(f"{self.named('ensemble')} and {self.named(name)} exclude each other: {ALONE[name]}")
+        for name, reason in EXCLUDED_BY_ENSEMBLE.items():
+            if self.ensemble is not None and is_given(self, name):
+                raise RunError(f"{self.named('ensemble')} and {self.named(name)} exclude each other: {reason}")
         return self
 
     def decisive(self):
@@ -158,5 +160,5 @@ class RunOptions(MotionRequest):
 
 def scripted(name, house, earthquake=False, snow=False, **more):
     """Options of a run script. name: of the script; earthquake, snow: whether there are; more: further options"""
-    return RunOptions(name=name, house=str(house), quake=earthquake, snow=SNOW_DEPTH if snow else 0.0, door=SCRIPT,
+    return RunOptions(name=name, house=str(house), quake=earthquake, snow=SNOW_DEPTH if snow else 0.0, source=SCRIPT,
                       **more)

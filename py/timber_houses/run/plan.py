@@ -6,7 +6,7 @@ from ..base.notes import noted
 from ..house import Town, load_house, load_town
 from ..motion import constant_note, interpolation_error, onset
 from ..motion.processing import in_axes
-from ..recording.summary import PartOfRecord, Record
+from ..recording.summary_parts import PartOfRecord, Record
 from ..scene.scenario import Scenario
 from .options import QUIET_DURATION
 

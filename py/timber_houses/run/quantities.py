@@ -16,8 +16,8 @@ from ..base.table import csv_text
 from ..recording import quantities
 from ..recording.history import DIRECTIONS
 from ..recording.peaks import COLUMNS, JOINTS
-from ..recording.summary import (LargestForce, LargestUplift, LargestUtilisation, Modes, Quantities, Shear,
-                                 StoreyQuantities)
+from ..recording.summary_parts import (LargestForce, LargestUplift, LargestUtilisation, Modes, Quantities, Shear,
+                                       StoreyQuantities)
 from . import observer
 from .modal import modes_now
 

@@ -257,20 +257,21 @@ class Run(Stoppable):
         self.options.say("written: " + ", ".join(str(path) for path in written))
         if not self.options.no_frames:
             show = f"xdg-open {quote(str(self.options.folder / all_pictures.PLAYER))}"
-            self.options.say(f"next: {show if self.options.views else self.options.door.pictures(self.options.folder)}")
+            again = self.options.source.pictures(self.options.folder)
+            self.options.say(f"next: {show if self.options.views else again}")
         if cut_off is None and self.summary.cut_off:
             raise PhysicsError(self.summary.cut_off)
 
     def _results(self, tables):
         written = []
-        with unwritten(self.options):
+        with explain_writing(self.options):
             if self.recorder:
                 self.frames = self.recorder.finish(self.summary)
                 written.append(self.frames_path)
             return written + summary.write(self.options.folder, self.summary, tables, self.observer.model)
 
 
-def unwritten(options):
+def explain_writing(options):
     """Context for writing results. Raises RunError."""
     folder, remedy = options.folder, "repeat the command with --resume"
     return os_errors(lambda fault: f"{folder}: the results cannot be written ({fault}); {remedy}")
@@ -278,13 +279,13 @@ def unwritten(options):
 
 def clear(options, *more):
     """Remove results of an earlier run or town and the files `more`, which are none of this run. Raises RunError."""
-    with removing(options):
+    with explain_removal(options):
         for name in (*summary.NAMES, *all_pictures.NAMES, *REPORT, *ensemble.NAMES, HOUSES, *more):
             remove(options.folder / name)
 
 
 @contextmanager
-def removing(options):
+def explain_removal(options):
     """Context for removing files. Raises RunError."""
     try:
         yield

@@ -19,7 +19,8 @@ from ..recording import drift
 from ..recording.history import NAME as HISTORY
 from ..recording.history import History
 from ..recording.peaks import BREAKS
-from ..recording.summary import NAME, ColumnDrifts, Diagnosis, Energy, Solver, Summary, Versions, Walls, Weight
+from ..recording.summary import NAME, Summary
+from ..recording.summary_parts import ColumnDrifts, Diagnosis, Energy, Solver, Versions, Walls, Weight
 from ..text.english import sentence
 from . import observer, quantities
 

@@ -22,7 +22,8 @@ from ..recording import frames
 from ..recording import town as recording
 from ..text.english import sentence
 from .progress import Bar
-from .runner import HOUSES, RECORDED, STATE, Interrupted, PhysicsError, Run, Stoppable, clear, removing, unwritten
+from .runner import (HOUSES, RECORDED, STATE, Interrupted, PhysicsError, Run, Stoppable, clear, explain_removal,
+                     explain_writing)
 
 O = yw.Omega()
 
@@ -38,7 +39,7 @@ class TownRun(Stoppable):
         self.runs, self.scenes = [], []
         for lot, (scenario, lot_options) in zip(self.town.lots, plan.lots):
             prepare_folder(lot_options.folder, options.named("out"))
-            with named(lot):
+            with name_lot(lot):
                 self.runs.append(Run(scenario, lot_options))
             self.scenes.append(O._sceneObj)
         self.lots = list(zip(self.town.lots, self.runs))
@@ -46,7 +47,7 @@ class TownRun(Stoppable):
         O.reset()
         self.idle = O._sceneObj
         clear(options, *RECORDED, *STATE)
-        with removing(options):
+        with explain_removal(options):
             for run in self.runs:
                 remove_parts(run.options.folder)
 
@@ -55,7 +56,7 @@ class TownRun(Stoppable):
         """Context in which the scene of a lot is YADE's current one; gives its Run."""
         before = compiled.swap_scene(self.scenes[number])
         try:
-            with named(self.town.lots[number]):
+            with name_lot(self.town.lots[number]):
                 yield self.runs[number]
         finally:
             compiled.swap_scene(before)
@@ -77,7 +78,7 @@ class TownRun(Stoppable):
         """The first step of each lot, which checks the scene; returns the numbers of the lots that have more."""
         active = []
         for number in range(len(self.runs)):
-            with self._of(number) as run, ending(run):
+            with self._of(number) as run, end_alone(run):
                 if O.iter + 1 < run.next_stop():
                     run.advance(O.iter + 1)
                 if O.iter < run.steps:
@@ -93,7 +94,7 @@ class TownRun(Stoppable):
         outcomes = compiled.advance_scenes([self.scenes[number] for number in active], stops, self.idle)
         left = []
         for number, (seconds, error) in zip(active, outcomes):
-            with self._of(number) as run, ending(run):
+            with self._of(number) as run, end_alone(run):
                 run.wall_s += seconds
                 if error:
                     raise PhysicsError(f"{error}; the run stops at {O.time:.4f} s")
@@ -113,7 +114,7 @@ class TownRun(Stoppable):
         """Write the results of all lots, the table of houses, and the pictures of the town. Raises PhysicsError of the
         first lot that was cut off."""
         for number in range(len(self.runs)):
-            with self._of(number) as run, ending(run):
+            with self._of(number) as run, end_alone(run):
                 run.write(cut_off=run.fault)
         for lot, run in self.lots:
             self.options.say(f"{lot.name}: {sentence(run.summary)}")
@@ -127,7 +128,7 @@ class TownRun(Stoppable):
 
     def _results(self):
         folder = self.options.folder
-        with unwritten(self.options):
+        with explain_writing(self.options):
             written = [folder / HOUSES]
             write_text(written[0], self.table())
             if self.options.no_frames:
@@ -158,7 +159,7 @@ COLUMNS = ("lot", "house", "x [m]", "y [m]", "rotation [degrees]", "snow [m]", "
 
 
 @contextmanager
-def ending(run):
+def end_alone(run):
     """Context in which a PhysicsError ends this Run alone."""
     try:
         yield
@@ -167,7 +168,7 @@ def ending(run):
 
 
 @contextmanager
-def named(lot):
+def name_lot(lot):
     """Context in which errors name the lot."""
     try:
         yield

@@ -43,9 +43,9 @@ class Scenario:
     dt: float = DEFAULT_DT
     duration: float = 30.0
     until_collapse: bool = False
-    joint_damping: float = None
-    wall_level: str = None
-    disturb: int = None
+    joint_damping: float | None = None
+    wall_level: str | None = None
+    disturb: int | None = None
     options: dict = field(default_factory=dict)
     record: object = None
     other_walls: object = None

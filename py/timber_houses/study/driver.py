@@ -193,7 +193,7 @@ class _Process:
         if self.child.returncode:
             return last_error(_end(self.task.folder / LOG), self.child.returncode)
         if self.task.summary is None:
-            return (f"the run used other packages than those in {Path(__file__).parents[2]}: start this script with"
+            return (f"the run used another timber_houses than {Path(__file__).parents[1]}: start this script with"
                     " YADE's Python")
         return None
 

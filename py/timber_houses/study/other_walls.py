@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from ..base.errors import RunError
 from ..house import LEVELS, has_rated_walls, load_house
-from ..recording.summary import OtherWalls
+from ..recording.summary_parts import OtherWalls
 from .driver import Task, run_missing
 
 

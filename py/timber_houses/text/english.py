@@ -102,7 +102,8 @@ def outcome(summary):
     if summary.collapsed:
         tilt, end = summary.tilt_time_s, f"collapsed at {summary.collapse_time_s:.1f} s"
         return (end if tilt is None
-                else f"{end}, after a storey drift of 1/10 {direction_name(summary.tilt_direction)} at {tilt:.1f} s")
+                else f"{end}, after a storey drift of {verdict.TILT.ratio} {direction_name(summary.tilt_direction)} at"
+                f" {tilt:.1f} s")
     drift, storey, direction = summary.largest_drift()
     peak = f"{directed(drift, direction)} in {storey_name(storey)}" if drift >= SMALL else ratio(drift)
     limit = verdict.passed(drift)
@@ -240,7 +241,7 @@ def level(facts):
 
 PHRASES = {
     "first_break": first_break,
-    "tilt": lambda facts: f"a storey drift {direction_name(facts.direction)} passes 1/10",
+    "tilt": lambda facts: f"a storey drift {direction_name(facts.direction)} passes {verdict.TILT.ratio}",
     "collapse": lambda facts: "collapse: a floor has come down by half a storey",
     "own_weight": own_weight,
     "structure_fallen": lambda facts: f"{facts.structure} has fallen: a level is down by half a storey",

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Summaries and events in Japanese, for the player. Functions, numbers and names are the same as in English."""
-from ..recording.verdict import COLLAPSED, DAMAGE, UNDAMAGED, passed
+from ..recording.verdict import COLLAPSED, DAMAGE, TILT, UNDAMAGED, passed
 from . import english
 from .english import SMALL, ratio
 
@@ -163,7 +163,7 @@ def level(facts):
 
 PHRASES = {
     "first_break": lambda facts: "最初のばねの破断" + (f"（{facts.force_n / 1000:.1f} kN）" if facts.force_n else ""),
-    "tilt": lambda facts: f"層間変形角が 1/10 を超える（{direction_name(facts.direction)}）",
+    "tilt": lambda facts: f"層間変形角が {TILT.ratio} を超える（{direction_name(facts.direction)}）",
     "collapse": lambda facts: "倒壊：床が階高の半分以上落ちた",
     "own_weight": own_weight,
     "structure_fallen": lambda facts: f"{structure_name(facts.structure)}が倒れた",

@@ -40,7 +40,8 @@ def fall(name, summary):
     main = name == next(iter(summary.structures))
     time, tilt = (summary.collapse_time_s, summary.tilt_time_s) if main else (summary.fall_time(name), None)
     since = ("" if tilt is None or time is None
-             else f", {time - tilt:.1f} s after a storey drift of 1/10 {direction_name(summary.tilt_direction)}")
+             else f", {time - tilt:.1f} s after a storey drift of {verdict.TILT.ratio}"
+             f" {direction_name(summary.tilt_direction)}")
     return f"collapsed{at(time)}{since}"
 
 

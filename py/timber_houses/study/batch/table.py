@@ -21,7 +21,7 @@ from ...base.remedies import nearest
 from ...motion import RecordError
 from ...motion.readers import find_files
 from ...motion.sequence import with_factor
-from ...run.options import Door, RunOptions
+from ...run.options import OptionSource, RunOptions
 
 MAX_FILE_SIZE = 10_000_000
 """[bytes]"""
@@ -78,8 +78,8 @@ class Row:
         calm = self.cells.get("record") == NO_EARTHQUAKE
         if calm and "seed" in self.cells:
             raise BatchError(f"{self.where('seed')}: the column record is {NO_EARTHQUAKE}, without an earthquake")
-        door = Door(lambda column: f"{self.where(column)}:", f"the column record is {NO_EARTHQUAKE}")
-        return RunOptions(quake=not calm, door=door,
+        source = OptionSource(lambda column: f"{self.where(column)}:", f"the column record is {NO_EARTHQUAKE}")
+        return RunOptions(quake=not calm, source=source,
                           **{column: self.value(column) for column in DECISIVE if column not in files}, **files)
 
     @property

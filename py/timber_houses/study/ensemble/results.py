@@ -10,7 +10,8 @@ from ...base.table import csv_text
 from ...house.disturbance import LARGEST
 from ...recording import frames
 from ...recording.ensemble import NAME, TABLE
-from ...recording.summary import Ensemble
+from ...recording.summary_parts import Ensemble
+from ...recording.verdict import TILT
 from ...text.english import counted, ratio, sentence, span
 from . import statistics
 
@@ -24,7 +25,7 @@ ROWS = (
     ("  brace-beam", "broken.brace_beam", "{:.4g}".format),
     ("broken wall sheets", "broken.wall_sheets", "{:.4g}".format),
     ("broken springs", "broken.springs", "{:.4g}".format),
-    ("tilt (1/10) [s]", "tilt_time_s", "{:.1f}".format),
+    (f"tilt ({TILT.ratio}) [s]", "tilt_time_s", "{:.1f}".format),
     ("collapse [s]", "collapse_time_s", "{:.1f}".format),
     ("energy input [kJ]", "energy.input", lambda joule: f"{joule / 1e3:.4g}"),
     ("energy residual [-]", "energy.residual_fraction", "{:.1g}".format),

@@ -93,7 +93,7 @@ class Entry:
 
     candidate: object
     runs: dict
-    dropped: int = None
+    dropped: int | None = None
     failed: str = ""
 
 

@@ -33,7 +33,7 @@ class Ranking:
     motions: list
     same: dict
     scripts: Path
-    jobs: int = None
+    jobs: int | None = None
 
     def __post_init__(self):
         self.folder = Path(self.folder)
