@@ -20,8 +20,9 @@ VARIANTS = [
 RUN = """
 import hashlib, struct, sys
 import yade.wrapper as yw
-from yade_timber.motion import default_motion
-from yade_timber.scene import engines, scenario
+from timber_houses.motion import default_motion
+from timber_houses.scene import scenario
+from yade_timber.scene import engines
 O = yw.Omega()
 scenario.build(scenario.Scenario("bits", sys.argv[1], default_motion(), 1.0, options={"skip_rest": 0}))
 engines.find_engine(yw.GroundMotionEngine).start = -18.5
