@@ -46,6 +46,9 @@ UNIT = 1960.0
 CLOSED = {"law": "brittle", "kn": 1e8, "ks": 1e8, "strength": math.inf, "softening_stretch": None,
           "ultimate_stretch": None, "friction_share": None}
 """Fitting that neither opens nor yields; it clamps the column, too."""
+SIDED, LINED = 0.31, 0.14
+"""Weight of outer walls with siding of 0.17, and without: gypsum board 0.09 (l_house.yaml), plywood of 9 mm 0.05.
+[kN/m2]"""
 SHARP = 0.02
 """Radius of a column's edges over its width, in place of house_storeys.ROUNDING. [-]"""
 
@@ -81,14 +84,20 @@ def without_finishes(data):
     data["finishes"] = False
 
 
-def siding(data):
-    """In place of mortar."""
+def heavy_siding(data):
+    """In place of mortar, with its weight."""
     for table in (table for name, table in data["wall_types"].items() if name.startswith("stucco")):
-        table["envelope"] = data["wall_types"]["siding" + "1ew"]["envelope"]
+        table["envelope"] = data["wall_types"]["siding1ew"]["envelope"]
+
+
+def siding(data):
+    heavy_siding(data)
+    data["loads"]["wall"] = SIDED
 
 
 def gypsum_alone(data):
     """Finishes inside, none outside."""
+    data["loads"]["wall"] = LINED
     lines = data["structures"][STRUCTURE]["walls"]
     for line in lines:
         line["type"] = [name for name in listed(line["type"]) if not name.startswith("stucco")]
@@ -126,6 +135,7 @@ def sharp_columns(storey):
 CHANGES = {
     "default": Change(),
     "siding": Change(siding),
+    "heavy siding": Change(heavy_siding),
     "gypsum alone": Change(gypsum_alone),
     "finishes off": Change(without_finishes),
     **{f"finishes {ratio:g}": Change(finishes=ratio) for ratio in (1.0, 2.1, 2.8)},
