@@ -29,7 +29,7 @@ class TimberPair {
 		solver.begin(bodies, h, 500);
 		solver.addPair(0, 1, records.data(), records.size());
 		prepareContacts(solver, 0, properties, points);
-		sweeps += solver.solve(1e-3).sweeps;
+		sweeps += solver.solve(3e-3).sweeps;
 		++steps;
 		PairEnergies energies;
 		storeForces(solver, 0, properties, energies);

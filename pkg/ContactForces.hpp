@@ -81,9 +81,9 @@ public:
 		((int, sweeps, 10000, Attr::triggerPostLoad, "Largest number of Gauss-Seidel sweeps for the implicit "
 			"springs and dashpots. Steps that need more are counted by unconverged. 0 gives the paper's "
 			"explicit springs and dashpots, stable only for very small steps. [-]"))
-		((Real, tolerance, 1e-3, Attr::triggerPostLoad, "The sweeps of an island end when no pair changes its "
-			"impulses by more than this share of their root mean square, all divided by the square root of "
-			"the pair's equivalent mass; at rest the first sweep's changes replace the impulses. [-]"))
+		((Real, tolerance, 3e-3, Attr::triggerPostLoad, "The sweeps of an island end when the changes of its "
+			"impulses are less than this share of the resultant impulses on its bodies, each divided by the "
+			"square root of its mass; at rest a tenth of the first sweep's changes replaces that. [-]"))
 		((long, sweepsDone, 0, , "Sum over the steps of the largest number of sweeps of an island. [-]"))
 		((int, sweepsMax, 0, , "Largest number of sweeps of a step. [-]"))
 		((long, unconverged, 0, , "Number of steps that ended at the limit of the sweeps while impulses still "

@@ -129,8 +129,8 @@ constexpr double firstSweepShare = 1e-8;
 /// more sweeps, no less motion.
 constexpr double sweepReduction = 0.1;
 
-/// Smallest convergence threshold of the sweeps after the first one, as the tolerance. [-] An island at rest is solved
-/// to a share of its own residual changes, but not beyond this. 1e-3: braces of a loaded house at rest turn to and fro by 1e-3
+/// Smallest convergence threshold of the sweeps after the first one, as a share of the points' impulses. [-] An island
+/// at rest is solved to a share of its own residual changes, but not beyond this. 1e-3: braces of a loaded house at rest turn to and fro by 1e-3
 /// rad/s; 1e-6: by 1e-6 rad/s; 1e-7: more sweeps at rest, and no less motion.
 constexpr double restTolerance = 1e-6;
 

@@ -147,7 +147,7 @@ double ContactSolver::sumOfChanges() const
 /// of the first sweep. [J]
 double ContactSolver::squaredThreshold(double tolerance, double firstChanges) const
 {
-	double size = 0;
+	double size = 0, resultants = 0;
 	size_t count = 0;
 	for (const SolverPair& pair : pairs) {
 		double squares = 0;
@@ -163,10 +163,14 @@ double ContactSolver::squaredThreshold(double tolerance, double firstChanges) co
 		size += joint.impulse.squaredNorm();
 		count += joint.count;
 	}
-	const double least = std::min(tolerance, restTolerance), rounding = std::min(tolerance, roundingTolerance);
-	const double reduced = sweepReduction * sweepReduction * firstChanges;
-	const double bySize = std::max(std::min(tolerance * tolerance * size, reduced), least * least * size);
-	return std::max(bySize, rounding * rounding * twiceKinetic) / std::max(1., double(count));
+	for (const int k : freeBodies)
+		for (const double w : weighted[k].change)
+			resultants += w * w;
+	const double rest = std::min(tolerance, restTolerance), rounding = std::min(tolerance, roundingTolerance);
+	const double reduced
+	        = std::min(tolerance * tolerance * resultants, sweepReduction * sweepReduction * firstChanges),
+	        least = std::max(rest * rest * size, rounding * rounding * twiceKinetic);
+	return std::max(reduced, least) / std::max(1., double(count));
 }
 
 /// If a pair has changed by more than the threshold, all pairs of its free bodies are visited in the rest of this sweep

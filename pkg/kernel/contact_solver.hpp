@@ -54,9 +54,7 @@
 /// end at their limit with impulses that obey (3) to (6) point by point, and ContactForces counts the step.
 ///
 /// Accelerated sweeps. Where light members are pressed between heavy ones plain sweeps converge slowly, and a small
-/// change in the last one does not mean a small error. The tolerance is a share of the impulses: 1e-3 of what a block
-/// of 1 t exerts on a board of 0.1 kg changes its velocity by 0.5 m/s, and points return more than (5) admits. A step
-/// that takes more than plainSweeps, or in which points have returned too much after checkedSweeps or more, goes on
+/// change in the last one does not mean a small error: points return more than (5) admits. A step that takes more than plainSweeps, or in which points have returned too much after checkedSweeps or more, goes on
 /// with sweeps over all pairs and joints. A step along the conjugate direction G precedes each of them:
 ///     Z <- Z' + gamma G,   G <- gamma G + (Z' - Z),   gamma = |Z' - Z|^2 / |Z' - Z|^2 of the sweep before    (9)
 /// with all impulses and velocities Z before, Z' after a sweep; gamma >= 1 starts anew with G = Z' - Z and no step
@@ -156,11 +154,12 @@ public:
 	        size_t k, const JointModes& modes, const Mat3& axesA, const JointDamping& damping);
 	/// Phase 3: computes impulses and new velocities. Pairs are visited in the order of their indices, the points
 	/// of a pair forwards and backwards in turn, so that no side of a face is favoured. After the first sweep only
-	/// active pairs are visited: those of which a body has just changed. A pair counts as changed above `tolerance`
-	/// times the root mean square of the island's impulses, each over the root of its equivalent mass [-]
-	/// (firstSweepShare of that in the first sweep). Where sweepReduction times the root mean square of the first
-	/// sweep's changes is smaller, it takes the place of both, down to restTolerance times that of the impulses,
-	/// or roundingTolerance times that of the momenta. A joint counts as one point.
+	/// active pairs are visited: those of which a body has just changed. Changes count by their kinetic energy. A
+	/// pair counts as changed above the share tolerance^2 [-] of that of the bodies' resultant impulses, over the
+	/// number of points of the island (firstSweepShare^2 of that in the first sweep), or sweepReduction^2 of that
+	/// of the first sweep's changes where it is less. Impulses of a point count only down to restTolerance^2: 1e-3
+	/// of what a block of 1 t exerts on a board of 0.1 kg changes its velocity by 0.5 m/s. A joint counts as one
+	/// point.
 	/// Accelerated sweeps (9) visit all pairs.
 	/// A few sweeps are enough for a standing house. Where heavy and light members collide, the rest of the warm
 	/// start's error would create energy.

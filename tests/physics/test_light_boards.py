@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Light bodies between heavy ones: the tolerance of the sweeps is a share of the impulses, and 1e-3 of those of a block
-of 1 t changes the velocity of a board of 1 kg by some 0.1 m/s.
+"""Light bodies between heavy ones: impulses of 1e-3 of those of a block of 1 t change the velocity of a board of 1 kg by
+some 0.1 m/s.
 """
 import numpy as np
 import pytest

@@ -42,8 +42,8 @@ def engines(gravity=GRAVITY, ground_motion=None, joints=None, monitor=None, vert
     sweeps : int
         Most Gauss-Seidel sweeps of the implicit contacts; 0: explicit springs and dashpots as in the paper.
     tolerance : float
-        Largest change of an island's contact impulses in the last sweep, relative to their root mean square; smaller at
-        rest. [-]
+        Largest change of an island's contact impulses in the last sweep, relative to the resultant impulses on its
+        bodies; smaller at rest. [-]
     health_check : int
         Steps between checks for finite numbers; 0: no check of scene, engines and overlaps at all.
     skip_rest : int
