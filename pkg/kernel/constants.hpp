@@ -12,10 +12,8 @@ constexpr double radiusShare = 0.10;
 
 /// Maximum number of vertices of a polyhedron. [-] The search for the axis of least overlap takes a time that grows
 /// with the third power of this number: a step of a pair with overlapping cores takes 0.02 ms with 12 vertices, 0.8 ms
-/// with 64 and 10 ms with 128. A prism of 32 sides is admissible. Larger: slow steps, and shapes take seconds to
-/// construct; smaller: fewer admissible shapes.
+/// with 64 and 10 ms with 128. A prism of 32 sides is admissible. Larger: slow steps; smaller: fewer admissible shapes.
 constexpr std::size_t maxVertices = 64;
-constexpr std::size_t maxFaces = 2 * maxVertices - 4; ///< of a polyhedron with maxVertices (Euler's formula) [-]
 
 /// Admissible extent of a polyhedron. [m] Within these bounds the squared product of three lengths neither overflows
 /// nor underflows.

@@ -110,6 +110,7 @@ namespace {
 			span.normalized(), span.norm() };
 	}
 
+	/// Empty if the faces do not close.
 	std::vector<Edge> edgesOf(const std::vector<Vec3>& points, const std::vector<Face>& faces)
 	{
 		std::map<std::pair<int, int>, int> faceLeftOf;
@@ -120,22 +121,12 @@ namespace {
 		std::vector<Edge> edges;
 		for (const auto& [ends, left] : faceLeftOf) {
 			const auto back = faceLeftOf.find({ ends.second, ends.first });
-			if (back == faceLeftOf.end())
-				throw PolyhedronError("the faces do not close around the edge between vertices "
-				        + std::to_string(ends.first) + " and " + std::to_string(ends.second));
+			if (back == faceLeftOf.end()) return {};
 			if (ends.first < ends.second)
 				edges.push_back(
 				        edgeBetween(points, faces, ends.first, ends.second, left, back->second));
 		}
 		return edges;
-	}
-
-	const char* const coplanar = "the vertices lie in one plane: a polyhedron needs a volume";
-
-	PolyhedronError noCorner(const std::vector<Vec3>& points, size_t k)
-	{
-		return PolyhedronError("vertex " + std::to_string(k) + " " + toText(points[k])
-		        + " is no corner of the convex hull: the element is not convex or the vertex is superfluous");
 	}
 
 	/// Largest distance of a point from the planes of triangles, > 0 outside; those without a plane are left out.
@@ -152,17 +143,16 @@ namespace {
 		return height;
 	}
 
-	/// Refuses points that are within the tolerance of the hull of the others.
-	void checkHeights(const std::vector<Vec3>& points, double tolerance)
+	/// First point within the tolerance of the hull of the others; the number of points if there is none.
+	size_t firstNoCorner(const std::vector<Vec3>& points, double tolerance)
 	{
-		for (size_t k = 0; k < points.size(); ++k) {
+		for (size_t k = 0; k < points.size() && points.size() > 4; ++k) {
 			std::vector<Vec3> others = points;
 			others.erase(others.begin() + long(k));
-			if (others.size() < 4) continue;
 			const std::vector<Triangle> hull = hullTriangles(others);
-			if (!hull.empty() && heightAbove(others, hull, points[k]) <= tolerance)
-				throw noCorner(points, k);
+			if (!hull.empty() && heightAbove(others, hull, points[k]) <= tolerance) return k;
 		}
+		return points.size();
 	}
 
 	bool isPlanar(const std::vector<Vec3>& points, const Face& face, double tolerance)
@@ -195,9 +185,9 @@ namespace {
 		return true;
 	}
 
-	/// Faces of triangles, with neighbours in one plane joined.
-	std::vector<Face> joinedFaces(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles,
-	        const Vec3& inside, double tolerance)
+	/// Corners of faces, of triangles with neighbours in one plane joined.
+	std::vector<Corners> joinedOutlines(
+	        const std::vector<Vec3>& points, const std::vector<Triangle>& triangles, double tolerance)
 	{
 		std::vector<Patch> patches;
 		for (const Triangle& t : triangles)
@@ -209,11 +199,23 @@ namespace {
 					patches.erase(patches.begin() + long(l));
 					l = k + 1;
 				} else ++l;
+		std::vector<Corners> outlines;
+		for (Patch& patch : patches)
+			outlines.push_back(std::move(patch.face.corners));
+		return outlines;
+	}
+
+	/// Faces in the order of their sorted corners.
+	std::vector<Face> orderedFaces(const std::vector<Vec3>& points, const std::vector<Corners>& outlines)
+	{
+		Vec3 inside = Vec3::Zero();
+		for (const Vec3& p : points)
+			inside += p / double(points.size());
 		std::map<Corners, Face> ordered;
-		for (const Patch& patch : patches) {
-			Corners sorted = patch.face.corners;
+		for (const Corners& outline : outlines) {
+			Corners sorted = outline;
 			std::sort(sorted.begin(), sorted.end());
-			ordered[sorted] = faceOf(points, patch.face.corners, sorted, inside);
+			ordered[sorted] = faceOf(points, outline, sorted, inside);
 		}
 		std::vector<Face> faces;
 		for (auto& item : ordered)
@@ -222,11 +224,11 @@ namespace {
 	}
 
 	/// Number of faces at the corner with the fewest.
-	int leastDegree(size_t count, const std::vector<Face>& faces)
+	int leastDegree(size_t count, const std::vector<Corners>& outlines)
 	{
 		std::vector<int> degree(count, 0);
-		for (const Face& face : faces)
-			for (int k : face.corners)
+		for (const Corners& outline : outlines)
+			for (int k : outline)
 				++degree[k];
 		return *std::min_element(degree.begin(), degree.end());
 	}
@@ -251,33 +253,35 @@ double sizeOf(const std::vector<Vec3>& points)
 }
 
 /// Faces are as planar as leaves each point the corner of three.
-Polyhedron convexHull(const std::vector<Vec3>& points, double tolerance)
+Hull tryConvexHull(const std::vector<Vec3>& points, double tolerance)
 {
-	assert(points.size() >= 4 && points.size() <= 4 * maxVertices);
+	assert(points.size() >= 4 && points.size() <= maxVertices);
 	assert(tolerance > 0);
-	Vec3 inside = Vec3::Zero();
-	for (const Vec3& p : points)
-		inside += p / double(points.size());
 	const std::vector<Triangle> triangles = hullTriangles(points);
-	const auto facesWithin = [&](double limit) { return joinedFaces(points, triangles, inside, limit); };
-	std::vector<Face> faces = facesWithin(tolerance);
-	if (faces.size() < 4) throw PolyhedronError(coplanar);
-	if (leastDegree(points.size(), faces) < 3) checkHeights(points, tolerance);
-	for (double share = 0.1; share > 1e-4 && leastDegree(points.size(), faces) < 3; share /= 10)
-		faces = facesWithin(share * tolerance);
-	if (leastDegree(points.size(), faces) < 3) faces = facesWithin(0);
-	return closedBody(points, std::move(faces));
+	const auto within = [&](double limit) { return joinedOutlines(points, triangles, limit); };
+	std::vector<Corners> outlines = within(tolerance);
+	if (outlines.size() < 4) return { HullOutcome::Coplanar };
+	if (leastDegree(points.size(), outlines) < 3) {
+		const size_t k = firstNoCorner(points, tolerance);
+		if (k < points.size()) return { HullOutcome::NoCorner, {}, k };
+	}
+	for (double share = 0.1; share > 1e-4 && leastDegree(points.size(), outlines) < 3; share /= 10)
+		outlines = within(share * tolerance);
+	if (leastDegree(points.size(), outlines) < 3) outlines = within(0);
+	return closedBody(points, outlines);
 }
 
-Polyhedron closedBody(std::vector<Vec3> vertices, std::vector<Face> faces)
+Hull closedBody(const std::vector<Vec3>& vertices, const std::vector<Corners>& outlines)
 {
-	Polyhedron body { std::move(vertices), std::move(faces), {} };
-	for (Face& face : body.faces)
+	Polyhedron body { vertices, orderedFaces(vertices, outlines), {} };
+	for (Face& face : body.faces) {
+		if (!face.plane.normal.allFinite()) return { HullOutcome::Open };
 		setSidePlanes(face, body.vertices);
+	}
 	body.edges = edgesOf(body.vertices, body.faces);
-	if (body.vertices.size() + body.faces.size() != body.edges.size() + 2)
-		throw PolyhedronError("faces, edges and vertices do not form one closed surface (Euler's formula)");
-	return body;
+	// Euler's formula
+	if (body.vertices.size() + body.faces.size() != body.edges.size() + 2) return { HullOutcome::Open };
+	return { HullOutcome::Sound, std::move(body) };
 }
 
 Polyhedron convexHull(const std::vector<Vec3>& points)
@@ -288,7 +292,15 @@ Polyhedron convexHull(const std::vector<Vec3>& points)
 	const double size = sizeOf(points);
 	checkSize(size);
 	checkDistinct(points, planarShare * size);
-	return convexHull(points, planarShare * size);
+	Hull hull = tryConvexHull(points, planarShare * size);
+	if (hull.outcome == HullOutcome::Coplanar)
+		throw PolyhedronError("the vertices lie in one plane: a polyhedron needs a volume");
+	if (hull.outcome == HullOutcome::NoCorner)
+		throw PolyhedronError("vertex " + std::to_string(hull.point) + " " + toText(points[hull.point])
+		        + " is no corner of the convex hull: the element is not convex or the vertex is superfluous");
+	if (hull.outcome != HullOutcome::Sound)
+		throw PolyhedronError("faces, edges and vertices do not form one closed surface (Euler's formula)");
+	return std::move(hull.body);
 }
 
 } // namespace timber

@@ -5,17 +5,31 @@
 
 namespace timber {
 
+/// How the construction of a closed body ends.
+enum class HullOutcome {
+	Sound,
+	Coplanar, ///< the points lie in one plane within the tolerance
+	NoCorner, ///< a point is no corner of the hull
+	NoVolume, ///< no point is inside all planes by more than the tolerance
+	Open, ///< the faces do not close
+};
+
+struct Hull {
+	HullOutcome outcome = HullOutcome::Sound;
+	Polyhedron body = {}; ///< if sound
+	size_t point = 0; ///< NoCorner: index of the point
+};
+
 /// Hull whose faces contain all points within `tolerance` of their plane [m]; less where no tolerance tells faces from
 /// corners.
-/// Throws PolyhedronError if the points are coplanar or if one is not a corner.
-Polyhedron convexHull(const std::vector<Vec3>& points, double tolerance);
+Hull tryConvexHull(const std::vector<Vec3>& points, double tolerance);
 
-/// The same with planarShare of the size. Throws PolyhedronError also for coordinates that are not finite, an extent
-/// outside smallestSize ... largestSize, and coincident points.
+/// The same with planarShare of the size. Throws PolyhedronError if the hull is not sound, for coordinates that are not
+/// finite, an extent outside smallestSize ... largestSize, and coincident points.
 Polyhedron convexHull(const std::vector<Vec3>& points);
 
-/// Body of faces that have their plane and corners. Throws PolyhedronError if they do not close.
-Polyhedron closedBody(std::vector<Vec3> vertices, std::vector<Face> faces);
+/// Body of faces whose corners are given, by index and counter-clockwise seen from outside.
+Hull closedBody(const std::vector<Vec3>& vertices, const std::vector<std::vector<int>>& outlines);
 
 /// Largest extent along a coordinate axis. [m]
 double sizeOf(const std::vector<Vec3>& points);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "inner_core.hpp"
-#include "convex_hull.hpp"
 #include "triangle_hull.hpp"
 #include <Eigen/LU>
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <tuple>
 
 namespace timber {
 namespace {
@@ -126,25 +126,63 @@ namespace {
 		}
 	}
 
-	/// Corners of the primal body by group of triangles, renumbered to those that faces have.
-	Polyhedron bodyOf(const std::vector<LongVec3>& corners, const std::vector<std::vector<int>>& cycles,
+	/// Common point of the first three planes of a group, in their order, that have one inside the others; else
+	/// `otherwise`, about the centre. The first of several points that rounding tells apart does not depend on the
+	/// centre.
+	struct Corner {
+		std::array<int, 3> planes;
+		Vec3 position; ///< [m]
+	};
+	Corner cornerOf(const std::vector<int>& group, const std::vector<HalfSpace>& planes, const Vec3& otherwise)
+	{
+		const auto isInside = [&](const Vec3& x) {
+			return std::all_of(group.begin(), group.end(), [&](int k) {
+				const HalfSpace& h = planes[k];
+				return h.normal.dot(x) - h.offset <= 1e-9 * (std::abs(h.offset) + x.norm());
+			});
+		};
+		for (size_t a = 0; a < group.size(); ++a)
+			for (size_t b = a + 1; b < group.size(); ++b)
+				for (size_t c = b + 1; c < group.size(); ++c) {
+					const HalfSpace &p = planes[group[a]], &q = planes[group[b]],
+					                &r = planes[group[c]];
+					Mat3 normals;
+					normals << p.normal.transpose(), q.normal.transpose(), r.normal.transpose();
+					if (std::abs(normals.determinant()) < 1e-9) continue;
+					const Vec3 x = normals.inverse() * Vec3(p.offset, q.offset, r.offset);
+					if (isInside(x)) return { { group[a], group[b], group[c] }, x };
+				}
+		return { { group[0], group[1], group[2] }, otherwise };
+	}
+
+	/// Corners of the primal body by group of triangles, in the order of their planes.
+	Hull bodyOf(const std::vector<LongVec3>& points, std::vector<std::vector<int>> cycles,
 	        const std::vector<HalfSpace>& planes, const Vec3& centre)
 	{
-		std::map<int, int> number;
+		std::map<int, std::vector<int>> planesAt;
+		for (size_t f = 0; f < cycles.size(); ++f)
+			for (const int k : cycles[f])
+				planesAt[k].push_back(int(f));
+		std::vector<std::pair<Corner, int>> corners;
+		for (const auto& [k, group] : planesAt)
+			corners.push_back({ cornerOf(group, planes, centre + points[k].cast<double>()), k });
+		std::sort(corners.begin(), corners.end(), [](const auto& p, const auto& q) {
+			return std::tie(p.first.planes, p.second) < std::tie(q.first.planes, q.second);
+		});
 		std::vector<Vec3> vertices;
-		std::vector<Face> faces;
-		for (size_t f = 0; f < cycles.size(); ++f) {
-			if (cycles[f].empty()) continue;
-			Face face;
-			face.plane = { planes[f].normal, planes[f].offset + planes[f].normal.dot(centre) };
-			for (const int k : cycles[f]) {
-				if (number.emplace(k, int(vertices.size())).second)
-					vertices.push_back(centre + corners[k].cast<double>());
-				face.corners.push_back(number[k]);
-			}
-			faces.push_back(std::move(face));
+		std::map<int, int> number;
+		for (const auto& [corner, k] : corners) {
+			number[k] = int(vertices.size());
+			vertices.push_back(corner.position);
 		}
-		return closedBody(std::move(vertices), std::move(faces));
+		for (auto& cycle : cycles)
+			for (int& k : cycle)
+				k = number[k];
+		cycles.erase(
+		        std::remove_if(cycles.begin(), cycles.end(), [](const auto& cycle) { return cycle.empty(); }),
+		        cycles.end());
+		if (cycles.size() < 4) return { HullOutcome::NoVolume };
+		return closedBody(vertices, cycles);
 	}
 
 } // namespace
@@ -185,7 +223,7 @@ Sphere inscribedSphere(const std::vector<HalfSpace>& planes, const Vec3& middle,
 	return best;
 }
 
-Polyhedron intersectionAround(const Vec3& centre, const std::vector<HalfSpace>& planes, double tolerance)
+Hull intersectionAround(const Vec3& centre, const std::vector<HalfSpace>& planes, double tolerance)
 {
 	std::vector<HalfSpace> about; // the centre
 	std::vector<LongVec3> duals;
@@ -211,7 +249,7 @@ Polyhedron intersectionAround(const Vec3& centre, const std::vector<HalfSpace>& 
 		tidy(cycle);
 	}
 	removeIncomplete(cycles, corners.size());
-	return bodyOf(corners, cycles, about, centre);
+	return bodyOf(corners, std::move(cycles), planes, centre);
 }
 
 } // namespace timber

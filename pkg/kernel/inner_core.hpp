@@ -2,7 +2,7 @@
 /// Intersections of half-spaces that have a point inside, by duality: a plane at distance d from the point becomes the
 /// point n / d, and the triangles of the convex hull of these points are the corners of the intersection.
 #pragma once
-#include "polyhedron.hpp"
+#include "convex_hull.hpp"
 
 namespace timber {
 
@@ -17,6 +17,6 @@ Sphere inscribedSphere(const std::vector<HalfSpace>& planes, const Vec3& middle,
 
 /// Bounded intersection of half-spaces that contain `centre`. Corners on a common edge that are closer than `tolerance`
 /// become one.
-Polyhedron intersectionAround(const Vec3& centre, const std::vector<HalfSpace>& planes, double tolerance);
+Hull intersectionAround(const Vec3& centre, const std::vector<HalfSpace>& planes, double tolerance);
 
 } // namespace timber

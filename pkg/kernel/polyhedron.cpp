@@ -17,77 +17,29 @@
 namespace timber {
 namespace {
 
-	/// Corners of an intersection of half-spaces: common points of three planes inside all half-spaces.
-	std::vector<Vec3> cornerPoints(const std::vector<HalfSpace>& planes)
-	{
-		std::vector<Vec3> corners;
-		double scale = 0;
-		const auto inside = [&](const Vec3& p) {
-			const double distance = p.norm();
-			return std::all_of(planes.begin(), planes.end(), [&](const HalfSpace& h) {
-				return h.normal.dot(p) - h.offset <= 1e-9 * (std::abs(h.offset) + distance);
-			});
-		};
-		for (size_t a = 0; a < planes.size(); ++a)
-			for (size_t b = a + 1; b < planes.size(); ++b)
-				for (size_t c = b + 1; c < planes.size(); ++c) {
-					Mat3 normals;
-					normals << planes[a].normal.transpose(), planes[b].normal.transpose(),
-					        planes[c].normal.transpose();
-					if (std::abs(normals.determinant()) < 1e-9) continue;
-					const Vec3 p = normals.inverse()
-					        * Vec3(planes[a].offset, planes[b].offset, planes[c].offset);
-					if (!inside(p)) continue;
-					corners.push_back(p);
-					scale = std::max(scale, (p - corners.front()).norm());
-				}
-		std::vector<Vec3> distinct;
-		for (const Vec3& p : corners)
-			if (std::none_of(distinct.begin(), distinct.end(),
-			            [&](const Vec3& q) { return (p - q).norm() <= 4 * planarShare * scale; }))
-				distinct.push_back(p);
-		return distinct;
-	}
-
-	/// Intersection of half-spaces whose normals are unit vectors.
-	Polyhedron intersectionOf(const std::vector<HalfSpace>& planes)
-	{
-		const std::vector<Vec3> corners = cornerPoints(planes);
-		if (corners.size() < 4) throw PolyhedronError("the half-spaces enclose no volume");
-		Polyhedron body = convexHull(corners);
-		// An unbounded intersection has a closing face that is none of the planes
-		for (const Face& face : body.faces) {
-			const bool isPlane = std::any_of(planes.begin(), planes.end(),
-			        [&](const HalfSpace& h) { return h.normal.dot(face.plane.normal) > 1 - 1e-6; });
-			if (!isPlane)
-				throw PolyhedronError("the half-spaces do not bound a volume in the direction "
-				        + toText(face.plane.normal));
-		}
-		return body;
-	}
-
 	/// The planes of the faces, moved inwards.
 	std::vector<HalfSpace> innerPlanes(const Polyhedron& sharp, double radius)
 	{
 		std::vector<HalfSpace> planes;
-		for (const Face& face : sharp.faces)
-			planes.push_back({ face.plane.normal, face.plane.offset - radius });
+		for (const Face& face : sharp.faces) {
+			const double length = face.plane.normal.norm(); // 1 but for rounding
+			planes.push_back({ face.plane.normal / length, (face.plane.offset - radius) / length });
+		}
 		return planes;
 	}
 
-	/// Core whose faces no tolerance tells from corners.
-	Polyhedron closedCore(const Polyhedron& sharp, double radius)
+	PolyhedronError noCore(double radius, const Sphere& largest)
 	{
-		const double size = sizeOf(sharp.vertices), tolerance = planarShare * size;
-		const Sphere largest = inscribedSphere(innerPlanes(sharp, 0), sharp.vertices.front(), size);
-		if (radius >= largest.radius - tolerance) {
-			std::ostringstream what;
-			what << "rounding radius " << radius
-			     << " m leaves no core: it must be below the radius of the inscribed sphere, "
-			     << largest.radius << " m";
-			throw PolyhedronError(what.str());
-		}
-		return intersectionAround(largest.centre, innerPlanes(sharp, radius), 4 * tolerance);
+		std::ostringstream what;
+		what << "rounding radius " << radius
+		     << " m leaves no core: it must be below the radius of the inscribed sphere, " << largest.radius
+		     << " m";
+		return PolyhedronError(what.str());
+	}
+
+	Sphere inscribedSphere(const Polyhedron& sharp, double size)
+	{
+		return inscribedSphere(innerPlanes(sharp, 0), sharp.vertices.front(), size);
 	}
 
 } // namespace
@@ -101,22 +53,6 @@ Polyhedron Polyhedron::fromVertices(const std::vector<Vec3>& points)
 		        + std::to_string(points.size())
 		        + ": the time of a contact grows with the third power of their number");
 	return convexHull(points);
-}
-
-Polyhedron Polyhedron::fromHalfSpaces(const std::vector<HalfSpace>& planes)
-{
-	if (planes.size() > maxFaces)
-		throw PolyhedronError(
-		        "at most " + std::to_string(maxFaces) + " half-spaces, got " + std::to_string(planes.size()));
-	std::vector<HalfSpace> units;
-	for (size_t k = 0; k < planes.size(); ++k) {
-		const double length = planes[k].normal.norm();
-		if (!std::isfinite(length) || !std::isfinite(planes[k].offset) || length == 0)
-			throw PolyhedronError(
-			        "half-space " + std::to_string(k) + " has no finite unit normal and offset");
-		units.push_back({ planes[k].normal / length, planes[k].offset / length });
-	}
-	return intersectionOf(units);
 }
 
 double Polyhedron::shortestEdge() const
@@ -206,8 +142,40 @@ Mat3 principalAxes(const Mat3& inertia)
 	return best;
 }
 
-/// Slightly warped faces split into triangles. The cores of these have clusters of corners, or do not close. The
-/// planarity tolerance is therefore increased while two corners of the core are too close to be two contacts.
+namespace {
+
+	/// A polyhedron and its core, with two distinct corners at each edge of the core, as far as possible.
+	struct Core {
+		Polyhedron sharp, core;
+	};
+
+	/// Slightly warped faces split into triangles, and the cores of these have clusters of corners. The planarity
+	/// tolerance is therefore increased while two corners of the core are too close to be two contacts.
+	Core coreOf(Polyhedron sharp, double radius)
+	{
+		const double size = sizeOf(sharp.vertices), tolerance = planarShare * size;
+		const Sphere largest = inscribedSphere(sharp, size);
+		if (radius >= largest.radius - tolerance) throw noCore(radius, largest);
+		Core best;
+		for (double share = planarShare; share < 2 * warpShare; share *= 10) {
+			Hull planar = share > planarShare ? tryConvexHull(sharp.vertices, share * size)
+			                                  : Hull { HullOutcome::Sound, sharp };
+			if (planar.outcome != HullOutcome::Sound) continue;
+			const Sphere within = inscribedSphere(planar.body, size);
+			if (radius >= within.radius - tolerance) continue;
+			Hull core = intersectionAround(within.centre, innerPlanes(planar.body, radius), 4 * tolerance);
+			if (core.outcome != HullOutcome::Sound) continue;
+			const bool isDistinct = core.body.shortestEdge() > 2 * flushTolerance;
+			if (isDistinct || best.core.vertices.empty())
+				best = { std::move(planar.body), std::move(core.body) };
+			if (isDistinct) break;
+		}
+		if (best.core.vertices.empty()) throw PolyhedronError("the faces of the core do not close");
+		return best;
+	}
+
+}
+
 RoundedPolyhedron RoundedPolyhedron::fromSharp(Polyhedron sharp, double radius)
 {
 	assert(std::isfinite(radius));
@@ -215,23 +183,9 @@ RoundedPolyhedron RoundedPolyhedron::fromSharp(Polyhedron sharp, double radius)
 	RoundedPolyhedron body;
 	body.serial = ++count;
 	body.radius = radius > 0 ? radius : radiusShare * sharp.shortestEdge();
-	bool isDistinct = false; // corners of the core
-	for (double share = planarShare; !isDistinct && share < 2 * warpShare; share *= 10)
-		try {
-			Polyhedron planar = share > planarShare
-			        ? convexHull(sharp.vertices, share * sizeOf(sharp.vertices))
-			        : sharp,
-			           core = Polyhedron::fromHalfSpaces(innerPlanes(planar, body.radius));
-			isDistinct = core.shortestEdge() > 2 * flushTolerance;
-			if (!isDistinct && !body.core.vertices.empty()) continue;
-			body.sharp = std::move(planar);
-			body.core = std::move(core);
-		} catch (const PolyhedronError&) { // the next tolerance, or closedCore()
-		}
-	if (body.core.vertices.empty()) {
-		body.core = closedCore(sharp, body.radius);
-		body.sharp = std::move(sharp);
-	}
+	Core parts = coreOf(std::move(sharp), body.radius);
+	body.sharp = std::move(parts.sharp);
+	body.core = std::move(parts.core);
 	for (const Vec3& v : body.core.vertices) {
 		body.halfExtents = body.halfExtents.cwiseMax(v.cwiseAbs());
 		body.boundingRadius = std::max(body.boundingRadius, v.norm());

@@ -47,9 +47,6 @@ struct Polyhedron {
 	/// an extent outside smallestSize ... largestSize; coincident points; coplanar points; a point that is not a
 	/// corner.
 	static Polyhedron fromVertices(const std::vector<Vec3>& points);
-	/// Bounded intersection of half-spaces; redundant ones are dropped. Throws PolyhedronError if it is empty, flat
-	/// or unbounded.
-	static Polyhedron fromHalfSpaces(const std::vector<HalfSpace>& planes);
 
 	double shortestEdge() const; ///< [m]
 	double thickness() const; ///< smallest width over all face normals [m]

@@ -9,6 +9,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
+#include <kernel/constants.hpp>
+#include <kernel/inner_core.hpp>
 #include <kernel/manifold.hpp>
 #include <kernel/separating_axis.hpp>
 #include "shapes.hpp"
@@ -79,7 +81,16 @@ Polyhedron readCutBox(Bytes& bytes, int cuts)
 		const Vec3 normal = bytes.vector();
 		planes.push_back({ normal, normal.cwiseAbs().dot(half) * (bytes.byte() + 1) / 256 });
 	}
-	return Polyhedron::fromHalfSpaces(planes);
+	for (HalfSpace& h : planes) {
+		const double length = h.normal.norm();
+		if (length == 0) throw PolyhedronError("no normal");
+		h = { h.normal / length, h.offset / length };
+	}
+	const Sphere inside = inscribedSphere(planes, Vec3::Zero(), 2 * half.norm());
+	if (inside.radius <= 0) throw PolyhedronError("no volume");
+	Hull hull = intersectionAround(inside.centre, planes, 4 * planarShare * half.norm());
+	if (hull.outcome != HullOutcome::Sound) throw PolyhedronError("not sound");
+	return hull.body;
 }
 
 Polyhedron readPoints(Bytes& bytes, int count)

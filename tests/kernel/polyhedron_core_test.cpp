@@ -36,8 +36,7 @@ TEST(HalfSpaces, RoundTrip)
 {
 	for (const auto& points : { boxVertices({ 1, 2, 3 }), tetrahedronVertices(1), octahedronVertices(1),
 	             hexagonalPrismVertices(1, 2), hip.vertices(), brace.vertices(), pyramidVertices(1, 2) }) {
-		const Polyhedron body = Polyhedron::fromVertices(points),
-		                 again = Polyhedron::fromHalfSpaces(planesOf(body));
+		const Polyhedron body = Polyhedron::fromVertices(points), again = intersectionOf(planesOf(body)).body;
 		expectCounts(again, body.vertices.size(), body.edges.size(), body.faces.size());
 		// Three-plane solves
 		EXPECT_NEAR(
@@ -45,13 +44,12 @@ TEST(HalfSpaces, RoundTrip)
 	}
 }
 
-TEST(HalfSpaces, RedundantAndUnnormalisedOnes)
+TEST(HalfSpaces, RedundantOnes)
 {
 	auto planes = planesOf(Polyhedron::fromVertices(boxVertices({ 1, 1, 1 })));
-	planes.push_back({ Vec3(1, 1, 0), 5 }); // misses the body
-	planes.push_back({ Vec3(2, 0, 0), 1 }); // the plane x = 0.5 again
-	planes.push_back({ Vec3(1, 1, 1) * 3, 4.5 }); // touches one vertex
-	expectCounts(Polyhedron::fromHalfSpaces(planes), 8, 12, 6);
+	planes.push_back({ Vec3(1, 1, 0).normalized(), 5 }); // misses the body
+	planes.push_back({ Vec3(1, 1, 1).normalized(), 1.5 / std::sqrt(3) }); // touches one vertex
+	expectCounts(intersectionOf(planes).body, 8, 12, 6);
 }
 
 TEST(HalfSpaces, CornersAtTheOrigin)
@@ -61,43 +59,21 @@ TEST(HalfSpaces, CornersAtTheOrigin)
 		// Degree-4 apex at the origin
 		const auto points = moved(pyramidVertices(1, 1), Quat::Identity(), { 0, 0, -1 });
 		const Polyhedron body = Polyhedron::fromVertices(moved(points, randomRotation(random), Vec3::Zero()));
-		expectCounts(Polyhedron::fromHalfSpaces(planesOf(body)), 5, 8, 5);
+		expectCounts(intersectionOf(planesOf(body)).body, 5, 8, 5);
 	}
 }
 
-TEST(HalfSpaces, Refusals)
+TEST(HalfSpaces, WithoutVolume)
 {
 	const auto box = planesOf(Polyhedron::fromVertices(boxVertices({ 1, 1, 1 })));
-	auto unbounded = box;
-	unbounded.pop_back();
-	EXPECT_THROW(Polyhedron::fromHalfSpaces(unbounded), PolyhedronError);
-	auto empty = box;
-	empty.push_back({ Vec3(1, 0, 0), -2 });
-	EXPECT_THROW(Polyhedron::fromHalfSpaces(empty), PolyhedronError);
-	auto flat = box;
-	flat.push_back({ Vec3(1, 0, 0), -0.5 });
-	EXPECT_THROW(Polyhedron::fromHalfSpaces(flat), PolyhedronError);
-	auto bad = box;
-	bad.push_back({ Vec3::Zero(), 1 });
-	EXPECT_THROW(Polyhedron::fromHalfSpaces(bad), PolyhedronError);
-	bad.back() = { Vec3(1, 0, 0), std::numeric_limits<double>::quiet_NaN() };
-	EXPECT_THROW(Polyhedron::fromHalfSpaces(bad), PolyhedronError);
-	EXPECT_THROW(Polyhedron::fromHalfSpaces({}), PolyhedronError);
-}
-
-TEST(HalfSpaces, OpenPrismAndHalfSpaceAreUnbounded)
-{
-	const Polyhedron prism = Polyhedron::fromVertices(hexagonalPrismVertices(1, 2));
-	std::vector<HalfSpace> open;
-	for (const Face& face : prism.faces)
-		if (face.plane.normal.z() < 0.5) open.push_back(face.plane);
-	EXPECT_THROW(Polyhedron::fromHalfSpaces(open), PolyhedronError);
-	EXPECT_THROW(Polyhedron::fromHalfSpaces({ { Vec3(0, 0, 1), 1 } }), PolyhedronError);
-	auto tilted = planesOf(Polyhedron::fromVertices(pyramidVertices(1, 1))); // without its base: a cone downwards
-	tilted.erase(
-	        std::remove_if(tilted.begin(), tilted.end(), [](const HalfSpace& h) { return h.normal.z() < -0.5; }),
-	        tilted.end());
-	EXPECT_THROW(Polyhedron::fromHalfSpaces(tilted), PolyhedronError);
+	for (const double offset : { -2., -0.5 }) { // empty, flat
+		auto planes = box;
+		planes.push_back({ Vec3(1, 0, 0), offset });
+		EXPECT_EQ(intersectionOf(planes).outcome, HullOutcome::NoVolume) << offset;
+	}
+	// The corners of a plate become one another within the tolerance
+	EXPECT_EQ(intersectionOf(planesOf(Polyhedron::fromVertices(boxVertices({ 1, 1, 3e-6 })))).outcome,
+	        HullOutcome::NoVolume);
 }
 
 TEST(Core, PlanesMoveByTheRadius)
@@ -242,13 +218,41 @@ TEST(Refusals, TooManyVertices)
 	EXPECT_LT(double(std::clock() - begin) / CLOCKS_PER_SEC, 0.5 * slowdown); // observed: 0.02 s of processor time
 }
 
-TEST(Refusals, TooManyHalfSpaces)
+/// Plates, needles and slivers below and above the tolerance of 1e-6 of their size, roofs and dents of a cube.
+TEST(Refusals, DegenerateHulls)
 {
-	Random random(13);
-	std::vector<HalfSpace> planes;
-	for (size_t k = 0; k <= maxFaces; ++k)
-		planes.push_back({ randomDirection(random), 1 });
-	EXPECT_THROW(Polyhedron::fromHalfSpaces(planes), PolyhedronError);
+	const auto outcome = [](const std::vector<Vec3>& points) { return tryConvexHull(points, planarShare).outcome; };
+	for (const double thin : { 0., 1e-8, 1e-7, 5e-7, 2e-6, 1e-5 }) {
+		const HullOutcome expected = thin < planarShare ? HullOutcome::Coplanar : HullOutcome::Sound,
+		                  // Half as thick
+		        expectedHalf = thin < 4 * planarShare ? HullOutcome::Coplanar : HullOutcome::Sound;
+		EXPECT_EQ(outcome(boxVertices({ 1, 1, thin })), expected) << "plate " << thin;
+		EXPECT_EQ(outcome(boxVertices({ 1, thin, thin })), expected) << "needle " << thin;
+		EXPECT_EQ(outcome({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 1, 1, thin } }), expectedHalf) << thin;
+		EXPECT_EQ(outcome({ { 0, 0, 0 }, { 1, 0, 0 }, { 0.5, thin, 0 }, { 0.5, thin / 2, 1 } }), expectedHalf)
+		        << "sliver " << thin;
+		auto roof = boxVertices({ 1, 1, 1 }), dent = roof, warped = roof;
+		roof.emplace_back(0, 0, 0.5 + thin);
+		const Hull withRoof = tryConvexHull(roof, planarShare);
+		EXPECT_EQ(withRoof.outcome, thin < planarShare ? HullOutcome::NoCorner : HullOutcome::Sound) << thin;
+		if (thin < planarShare) {
+			EXPECT_EQ(withRoof.point, 8u) << thin;
+		}
+		dent[7] *= 1 - thin; // nearly coplanar faces of the corner that is pushed in, and of one that is raised
+		warped[7].z() += thin;
+		EXPECT_EQ(outcome(dent), HullOutcome::Sound) << thin;
+		EXPECT_EQ(outcome(warped), HullOutcome::Sound) << thin;
+	}
+}
+
+/// A hull of 64 corners has 124 faces, its core up to 244 corners.
+TEST(Core, LargestShapesTakeMilliseconds)
+{
+	Random random(14);
+	const auto begin = std::clock();
+	for (int trial = 0; trial < 10; ++trial)
+		EXPECT_GE(rounded(ellipsoidPoints(random, int(maxVertices), { 1, 0.8, 0.6 })).core.faces.size(), 60u);
+	EXPECT_LT(double(std::clock() - begin) / CLOCKS_PER_SEC / 10, 0.1 * slowdown); // observed: 0.02 s
 }
 
 /// Just below and just above planarShare (1e-6 of the size): a roof on a face is a superfluous vertex or a corner.

@@ -174,9 +174,9 @@ TEST(Mass, PartsAddUp)
 		auto upper = planesOf(whole), lower = upper;
 		upper.push_back({ -normal, -normal.dot(mass.centroid) });
 		lower.push_back({ normal, normal.dot(mass.centroid) });
-		const MassProperties u = massProperties(Polyhedron::fromHalfSpaces(upper)),
-		                     l = massProperties(Polyhedron::fromHalfSpaces(lower));
-		const double noise = 1e-5; // corners closer than 4e-6 of the size are merged by fromHalfSpaces
+		const MassProperties u = massProperties(intersectionOf(upper).body),
+		                     l = massProperties(intersectionOf(lower).body);
+		const double noise = 1e-5; // corners closer than 4e-6 of the size are merged
 		EXPECT_NEAR(u.volume + l.volume, mass.volume, noise * mass.volume);
 		EXPECT_LT((u.volume * u.centroid + l.volume * l.centroid - mass.volume * mass.centroid).norm(),
 		        noise * mass.volume);

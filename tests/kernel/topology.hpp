@@ -3,6 +3,8 @@
 #pragma once
 #include "shapes.hpp"
 #include <gtest/gtest.h>
+#include <kernel/constants.hpp>
+#include <kernel/inner_core.hpp>
 
 namespace timber::shapes {
 
@@ -41,6 +43,14 @@ inline std::vector<HalfSpace> planesOf(const Polyhedron& body)
 	for (const Face& face : body.faces)
 		planes.push_back(face.plane);
 	return planes;
+}
+
+/// Intersection of different half-spaces about the centre of their inscribed sphere, within 10 m of the origin.
+inline Hull intersectionOf(const std::vector<HalfSpace>& planes)
+{
+	const Sphere inside = inscribedSphere(planes, Vec3::Zero(), 10);
+	if (inside.radius <= 1e-12) return { HullOutcome::NoVolume };
+	return intersectionAround(inside.centre, planes, 4 * planarShare);
 }
 
 const HipSlab hip { 7.43, 0.3, 0.4, 0.12 };

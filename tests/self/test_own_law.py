@@ -40,7 +40,7 @@ def patched(tmp_path_factory):
 
 
 def test_all_steps_are_there(patched):
-    assert "elasticPair(const PadLaw&" in (patched / "pkg/kernel/contact_pair.cpp").read_text()
+    assert "elasticPair(const PadLaw&" in (patched / "pkg/kernel/elastic_pair.cpp").read_text()
     assert "(Law2_ManifoldGeom_TimberPhys_Pad)" in (patched / "pkg/ContactPhysics.cpp").read_text()
 
 
