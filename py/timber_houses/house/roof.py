@@ -113,7 +113,7 @@ def pitched_plan(structure, layer):
     size, cut = high - low, table.get("corner_cut", 0.0)
     if table["type"] == "gable":
         ridge = table["ridge"] or ("x" if size[0] > size[1] else "y")
-        sides = ENDS[ACROSS[ridge]]
+        sides = tuple(ENDS[ACROSS[ridge]])
     else:
         sides = (table["falls"],) if table["type"] == "mono" else tuple(OUTWARD)
     run = min(np.abs(OUTWARD[side]) @ size for side in sides) / min(len(sides), 2)
