@@ -60,7 +60,7 @@ void ContactForces::findPairs(const Scene& scene, std::vector<ContactPair>& cont
 		ManifoldPhys& phys = *static_cast<ManifoldPhys*>(I->phys.get());
 		if (!phys.isIdle())
 			contacts.push_back({ I->getId1(), I->getId2(), static_cast<ManifoldGeom*>(I->geom.get()), &phys,
-			        phys.records.size(), phys.releasedEnergy, phys.placedEnergy });
+			        phys.isActing ? phys.records.size() : 0, phys.releasedEnergy, phys.placedEnergy });
 	}
 }
 

@@ -18,7 +18,7 @@ class ContactForces : public GlobalEngine {
 		Body::id_t id1, id2;
 		const ManifoldGeom* geom; ///< of this step: a reset interaction gets another one
 		ManifoldPhys* phys;
-		size_t points; ///< copy of the number of phys's records
+		size_t points; ///< copy of the number of phys's records; 0 if all of them are idle
 		Real released, placed; ///< copies of phys->releasedEnergy and phys->placedEnergy [J]
 		bool hasIdsOf(const ContactPair& p) const { return id1 == p.id1 && id2 == p.id2; }
 	};

@@ -51,6 +51,7 @@ namespace {
 		const bool isNew = !I.phys || I.phys->getClassIndex() != Phys::getClassIndexStatic();
 		if (isNew) I.phys = shared_ptr<Phys>(new Phys);
 		Phys& phys = *static_cast<Phys*>(I.phys.get());
+		if (isNew) phys.source.fill(NaN);
 		const Real mass = timber::reduced(massOf(b1), massOf(b2));
 		// Infinite: both are fixed, no contact force acts
 		if (isNew || math::isfinite(mass)) phys.mass = mass;
@@ -61,8 +62,8 @@ namespace {
 	/// computed. Attributes set by hand stay while they are the same.
 	bool haveChanged(ManifoldPhys& phys, std::initializer_list<Real> numbers)
 	{
-		if (std::equal(numbers.begin(), numbers.end(), phys.source.begin(), phys.source.end())) return false;
-		phys.source = numbers;
+		if (std::equal(numbers.begin(), numbers.end(), phys.source.begin())) return false;
+		std::copy(numbers.begin(), numbers.end(), phys.source.begin());
 		return true;
 	}
 
@@ -98,7 +99,9 @@ namespace {
 			phys.placedEnergy += phys.records[k].normalStored;
 			phys.placedOverlap = math::max(phys.placedOverlap, Real(phys.records[k].overlap));
 		}
-		if (phys.records.empty()) phys.normalForce = phys.shearForce = Vector3r::Zero();
+		phys.isActing = !std::all_of(phys.records.begin(), phys.records.end(),
+		        [](const timber::PointRecord& r) { return r.isIdle(); });
+		if (!phys.isActing) phys.normalForce = phys.shearForce = Vector3r::Zero();
 		return true;
 	}
 
@@ -158,8 +161,8 @@ boost::python::list ManifoldPhys::pyPoints() const
 {
 	boost::python::list points;
 	for (const timber::PointRecord& p : records)
-		points.append(boost::python::make_tuple(
-		        p.id.bits, Real(p.normalForce), Vector3r(p.shearForce), Vector3r(p.dashpotForce)));
+		points.append(boost::python::make_tuple(p.id.bits, Real(p.normalForce), Vector3r(p.shearForce),
+		        Vector3r(p.dashpotForce), Real(p.crushed)));
 	return points;
 }
 

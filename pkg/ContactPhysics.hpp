@@ -6,6 +6,8 @@
 #include <Materials.hpp>
 #include <kernel/contact_pair.hpp>
 #include <pkg/common/NormShearPhys.hpp>
+#include <array>
+#include <boost/serialization/array.hpp>
 
 namespace boost {
 namespace serialization {
@@ -31,6 +33,8 @@ namespace serialization {
 
 namespace yade {
 
+using SourceNumbers = std::array<Real, 9>; ///< of ManifoldPhys
+
 /// Base of all contact laws' IPhys. YADE's functions read the attributes of NormShearPhys: the forces of the last step.
 class ManifoldPhys : public NormShearPhys {
 public:
@@ -39,6 +43,7 @@ public:
 	/// Of bodies that were placed in contact, in this step only: of all springs [J], of the deepest point [m]
 	Real placedEnergy = 0, placedOverlap = 0;
 	timber::BearingStrength strength; ///< of each point, in this step
+	bool isActing = true; ///< whether one of the points is not idle in this step
 	/// No contact points, and no energy released in the last step.
 	bool isIdle() const { return records.empty() && releasedEnergy == 0; }
 	timber::PairProperties properties() const
@@ -64,13 +69,14 @@ public:
 		((Real, power, timber::HertzLaw::power, Attr::readonly, "Exponent of the contact law. [-]"))
 		((vector<timber::PointRecord>, records, , Attr::hidden, "History of the contact points, sorted by "
 			"feature id. [-]"))
-		((vector<Real>, source, , Attr::hidden, "Numbers of the materials and of the Ip2 functor from which the "
+		((SourceNumbers, source, , Attr::hidden, "Numbers of the materials and of the Ip2 functor from which the "
 			"attributes were computed."))
 		((Real, releasedEnergy, 0, Attr::readonly, "Elastic energy released in the last step with loaded "
 			"points that ceased to exist, minus the energy given to new points. [J]")),
 		createIndex();,
 		.add_property("points", &ManifoldPhys::pyPoints, "Forces at the contact points on body 2, world frame: "
-			"list of (feature id, elastic normal force [N], elastic shear force [N], dashpot force [N]).")
+			"list of (feature id, elastic normal force [N], elastic shear force [N], dashpot force [N], "
+			"plastic overlap [m]).")
 	);
 	// clang-format on
 	REGISTER_CLASS_INDEX(ManifoldPhys, NormShearPhys);

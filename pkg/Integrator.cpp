@@ -54,7 +54,10 @@ void SymplecticIntegrator::moveFixed(State& s) const
 	s.pos += scene->dt * s.vel;
 	s.angMom = s.ori * s.inertia.cwiseProduct(s.ori.conjugate() * s.angVel);
 	const Real speed = s.angVel.norm();
-	if (speed > 0) s.ori = (Quaternionr(AngleAxisr(speed * scene->dt, s.angVel / speed)) * s.ori).normalized();
+	if (!(speed > 0)) return;
+	const auto [sine, cosine] = timber::sineCosine<Real>(speed * scene->dt / 2);
+	const Vector3r part = sine / speed * s.angVel;
+	s.ori = (Quaternionr(cosine, part.x(), part.y(), part.z()) * s.ori).normalized();
 }
 
 /// Orientations and angular velocities of at most as many bodies as a Number has lanes.

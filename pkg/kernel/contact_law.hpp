@@ -10,6 +10,7 @@
 #include "bearing_strength.hpp"
 #include "constants.hpp"
 #include "contact_step.hpp"
+#include "portable_math.hpp"
 #include "preconditions.hpp"
 #include <algorithm>
 #include <cassert>
@@ -28,7 +29,7 @@ inline double equivalentModulus(double young1, double poisson1, double young2, d
 inline double reduced(double x, double y) { return 1 / (1 / x + 1 / y); }
 
 /// Radius of the sphere of the same volume (section 3.1). volume [m3]; returns [m].
-inline double equivalentRadius(double volume) { return std::cbrt(3 * volume / (4 * M_PI)); }
+inline double equivalentRadius(double volume) { return power(3 * volume / (4 * M_PI), 1. / 3); }
 
 // A law has force(n) [N], stiffness(n) = dF/dn [N/m], energy(n) = integral of F [J] and its inverse overlapOf(energy)
 // [m], and the exponent `power`, q, of its part that hardens: F = k n + c n^q with k, c >= 0. q = 1: no hardening.
@@ -50,7 +51,10 @@ struct HertzLaw {
 	}
 	template <class Number> Number energy(Number n) const { return Number(0.4) * force(n) * n; } ///< [J]
 	/// Inverse of energy() [m]
-	double overlapOf(double energy) const { return std::pow(15 * energy / (8 * modulus * std::sqrt(radius)), 0.4); }
+	double overlapOf(double energy) const
+	{
+		return timber::power(15 * energy / (8 * modulus * std::sqrt(radius)), 0.4);
+	}
 };
 
 /// Constant stiffness. Snow: proportional to its mass (Table 1). overlap n [m].

@@ -398,6 +398,8 @@ void prepareContacts(ContactSolver& solver, size_t k, const PairProperties& pair
 		const Group<Number, const PointRecord> record(solverPair.points + i, points.size() - i);
 		solver.prepare<Number>(k, i, stepInput<Number>(bodies, pair, solver.stepLength(), point, record));
 	});
+	for (size_t i = 0; i < solverPair.count; ++i)
+		solverPair.points[i].step.idle = solverPair.points[i].isIdle();
 	if (!solver.isExplicit()) prepareImpacts(solverPair, pair, solver.stepLength());
 }
 

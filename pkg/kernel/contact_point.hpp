@@ -5,6 +5,7 @@
 #pragma once
 #include "impact.hpp"
 #include "manifold.hpp"
+#include "portable_math.hpp"
 #include "solver_body.hpp"
 
 namespace timber {
@@ -46,6 +47,7 @@ struct PointStep {
 	double length; ///< h
 	double strength; ///< h F_Y
 	bool bounded; ///< whether (6) limited the impulse in the last visit
+	bool idle; ///< no impulse, whatever the bodies do
 	Vec3 axes[3]; ///< unit: normal from A to B, tangent, second tangent
 	Vec3 armA, armB; ///< from the centres of mass to the point [m]
 
@@ -54,14 +56,22 @@ struct PointStep {
 
 struct PointRecord : PointHistory {
 	PointStep step;
+
+	/// Without force, stiffness and energy: its impulse is zero, and a step leaves its history as it is. Crushed points
+	/// are idle until the surfaces come as close again.
+	bool isIdle() const
+	{
+		return stiffness == 0 && normalForce == 0 && normalStored == 0 && shearStored == 0 && !impact.isActive()
+		        && shearForce.isZero(0) && dashpotForce.isZero(0);
+	}
 };
 
 /// s^q, q: power of a contact law, which for Hertz's is a matter of a square root.
 template <class Number> Number powerOf(Number s, double q)
 {
 	if (q == 1.5) return s * sqrt(s);
-	if constexpr (std::is_same_v<Number, double>) return std::pow(s, q);
-	else return eachLane(s, [q](double x) { return std::pow(x, q); });
+	if constexpr (std::is_same_v<Number, double>) return power(s, q);
+	else return eachLane(s, [q](double x) { return power(x, q); });
 }
 
 } // namespace timber

@@ -124,8 +124,10 @@ void ContactSolver::solvePair(SolverPair& pair, bool forwards)
 	double *changeA = weighted[pair.bodyA].change, *changeB = weighted[pair.bodyB].change;
 	PairVector velocity = PairVector::of(changeA, changeB);
 	double squaredChange = 0;
-	for (size_t k = 0; k < pair.count; ++k)
-		squaredChange += visitPoint(pair.points[forwards ? k : pair.count - 1 - k].step, velocity);
+	for (size_t k = 0; k < pair.count; ++k) {
+		PointStep& step = pair.points[forwards ? k : pair.count - 1 - k].step;
+		if (!step.idle) squaredChange += visitPoint(step, velocity);
+	}
 	pair.squaredChange = squaredChange * inverseMass(pair);
 	velocity.store(changeA, changeB);
 }
@@ -162,7 +164,8 @@ double ContactSolver::squaredThreshold(double tolerance, double firstChanges) co
 		count += joint.count;
 	}
 	const double least = std::min(tolerance, restTolerance), rounding = std::min(tolerance, roundingTolerance);
-	const double bySize = std::max(std::min(tolerance * tolerance * size, firstChanges), least * least * size);
+	const double reduced = sweepReduction * sweepReduction * firstChanges;
+	const double bySize = std::max(std::min(tolerance * tolerance * size, reduced), least * least * size);
 	return std::max(bySize, rounding * rounding * twiceKinetic) / std::max(1., double(count));
 }
 

@@ -158,9 +158,9 @@ public:
 	/// of a pair forwards and backwards in turn, so that no side of a face is favoured. After the first sweep only
 	/// active pairs are visited: those of which a body has just changed. A pair counts as changed above `tolerance`
 	/// times the root mean square of the island's impulses, each over the root of its equivalent mass [-]
-	/// (firstSweepShare of that in the first sweep). Where the island rests the root mean square of the first
-	/// sweep's changes is smaller and takes its place, down to restTolerance times that of the impulses, or
-	/// roundingTolerance times that of the momenta. A joint counts as one point.
+	/// (firstSweepShare of that in the first sweep). Where sweepReduction times the root mean square of the first
+	/// sweep's changes is smaller, it takes the place of both, down to restTolerance times that of the impulses,
+	/// or roundingTolerance times that of the momenta. A joint counts as one point.
 	/// Accelerated sweeps (9) visit all pairs.
 	/// A few sweeps are enough for a standing house. Where heavy and light members collide, the rest of the warm
 	/// start's error would create energy.

@@ -188,7 +188,7 @@ void prepareSteps(const StepInput<Number>& p, const SolverBodies& bodies, double
 		s.power = p.power;
 		s.length = h;
 		s.strength = h * lane(p.strength, i);
-		s.bounded = false;
+		s.bounded = s.idle = false;
 		for (int c = 0; c < 3; ++c)
 			s.axes[c] = lane(axes[c], i);
 		s.armA = lane(p.armA, i);

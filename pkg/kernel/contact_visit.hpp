@@ -36,7 +36,7 @@ struct Hardening {
 		const double q = c.power, stretch = 1 + d / c.overlap, share = 1 + middle / c.overlap;
 		const double power = powerOf(stretch, q);
 		// C ~ K^1/2 ~ n^((q-1)/2)
-		const double root = q == 1.5 ? std::sqrt(std::sqrt(share)) : std::pow(share, (q - 1) / 2);
+		const double root = q == 1.5 ? std::sqrt(std::sqrt(share)) : timber::power(share, (q - 1) / 2);
 		force = c.hardening * (power - 1 - q * (stretch - 1));
 		slope = c.hardening * q / c.overlap * (power / stretch - 1);
 		damping = c.damping * (root - 1);
@@ -149,6 +149,8 @@ struct ShearAccount {
 	// (8), (2)
 	PointStep::Quad u = c.velocity + velocity.dots(c.rows), p = c.factor * c.impulse + c.bias - c.mass * u;
 	const double pn = normalImpulse(c, u[0], p[0]);
+	// No shear without a normal impulse
+	if (pn == 0 && c.impulse[0] == 0 && c.impulse[1] == 0 && c.impulse[2] == 0) return 0;
 	const PointStep::Quad slip = (pn - c.impulse[0]) * c.column; // caused by the change of the normal impulse
 	p -= c.mass * slip; // (4)
 	p[0] = pn;

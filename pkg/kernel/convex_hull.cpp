@@ -92,7 +92,8 @@ namespace {
 		const Vec3 v = direction.normalized().cross(u);
 		const auto angle = [&](int k) {
 			const Vec3 x = points[k] - centre;
-			return std::atan2(x.dot(v), x.dot(u));
+			const double along = x.dot(u), across = x.dot(v);
+			return std::copysign(1 - along / (std::abs(along) + std::abs(across)), across);
 		};
 		std::rotate(outline.begin(),
 		        std::min_element(

@@ -1,26 +1,65 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "impact.hpp"
 #include "constants.hpp"
+#include "portable_math.hpp"
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
 namespace timber {
 
+namespace {
+
+	/// artanh(x)/x for x^2 = -square, arctan(x)/x for x^2 = square, square > -1: halved arguments, then the series.
+	double arctangentShare(double square)
+	{
+		double factor = 1;
+		while (std::abs(square) > 0.01) {
+			const double half = 1 + std::sqrt(1 + square);
+			factor *= 2 / half;
+			square /= half * half;
+		}
+		double sum = 0;
+		for (int k = 17; k > 0; k -= 2)
+			sum = 1. / k - square * sum;
+		return factor * sum;
+	}
+
+	/// int_0^1 dx / sqrt(1 - x^(1/s)) = pi^1/2 Gamma(s + 1) / Gamma(s + 1/2): by recurrence from the asymptotic series
+	/// of the quotient at s + 12.
+	double quarterPeriod(double s)
+	{
+		double factor = std::sqrt(M_PI);
+		for (int k = 0; k < 12; ++k, ++s)
+			factor *= (s + 0.5) / (s + 1);
+		const double w = s + 0.25, y = 1 / (w * w);
+		return factor * std::sqrt(w)
+		        * (1 + y / 64 * (1 - y * (19. / 128 - y * (631. / 8192 - y * (174317. / 2097152)))));
+	}
+
+} // namespace
+
 double restitution(double ratio)
 {
 	assert(ratio >= 0);
-	const double root = std::sqrt(std::abs(1 - ratio * ratio));
-	if (root < 1e-6) return std::exp(-2.); // the limit for critical damping
-	return std::exp(-2 * ratio * (ratio < 1 ? std::acos(ratio) : std::acosh(ratio)) / root);
+	// acos(D) / sqrt(1 - D^2) = 2 / (1 + D) arctan(t) / t, t^2 = (1 - D) / (1 + D)
+	const double over = 1 / (1 + ratio);
+	return exponential(-4 * ratio * over * arctangentShare((1 - ratio) * over));
 }
+
+double PowerSpring::power() const
+{
+	constexpr double unit = 0x1p40;
+	return std::floor(stiffness * overlap / force * unit + 0.5) / unit;
+}
+
+double PowerSpring::energyAt(double other) const { return energy() * timber::power(other / force, 1 + 1 / power()); }
 
 /// 2 d / v int_0^1 dx / sqrt(1 - x^(q+1)) with the largest overlap d.
 double PowerSpring::duration(double mass, double speed) const
 {
-	const double s = 1 / (power() + 1), integral = std::sqrt(M_PI) * s * std::tgamma(s) / std::tgamma(s + 0.5);
-	const double largest = overlap * std::pow(mass * speed * speed / (2 * energy()), s);
-	return 2 * integral * largest / speed;
+	const double s = 1 / (power() + 1), largest = overlap * timber::power(mass * speed * speed / (2 * energy()), s);
+	return 2 * quarterPeriod(s) * largest / speed;
 }
 
 /// (3) for s = n/d and y = (v/v(d))^2, dy/ds = -(q + 1) min(1, s^q + 2 D s^((q-1)/2) y^1/2), in the variable z = s^1/4, of
@@ -28,20 +67,30 @@ double PowerSpring::duration(double mass, double speed) const
 double reboundAtStrength(double ratio, double q, double speed, double& rest)
 {
 	assert(ratio >= 0 && q >= 1 && speed > 0);
-	const auto rate = [&](double z, double y) {
-		const double force
-		        = std::pow(z, 4 * q) + 2 * ratio * std::pow(z, 2 * (q - 1)) * std::sqrt(std::max(0., y));
+	struct Powers {
+		double spring, dashpot; ///< z^4q, z^2(q-1)
+	};
+	const auto powersOf = [q](double z) {
+		return q == 1.5 ? Powers { z * z * z * z * z * z, z }
+		                : Powers { power(z, 4 * q), power(z, 2 * (q - 1)) };
+	};
+	const auto rate = [&](double z, const Powers& p, double y) {
+		const double force = p.spring + 2 * ratio * p.dashpot * std::sqrt(std::max(0., y));
 		return -4 * (q + 1) * z * z * z * std::min(1., force);
 	};
 	const double dz = 1. / crushingSteps, unloading = std::sqrt(restitution(ratio));
 	rest = 0;
 	double y = speed * speed;
+	Powers now = powersOf(0);
 	for (int k = 0; k < crushingSteps; ++k) {
-		const double z = k * dz, a = rate(z, y), b = rate(z + dz / 2, y + dz / 2 * a),
-		             c = rate(z + dz / 2, y + dz / 2 * b), d = rate(z + dz, y + dz * c),
+		const double z = k * dz, middle = z + dz / 2;
+		const Powers half = powersOf(middle), end = powersOf(z + dz);
+		const double a = rate(z, now, y), b = rate(middle, half, y + dz / 2 * a),
+		             c = rate(middle, half, y + dz / 2 * b), d = rate(z + dz, end, y + dz * c),
 		             next = y + dz / 6 * (a + 2 * b + 2 * c + d);
-		if (next <= 0) return unloading * std::pow(z + dz * y / (y - next), 2 * (q + 1)); // s^((q+1)/2)
+		if (next <= 0) return unloading * power(z + dz * y / (y - next), 2 * (q + 1)); // s^((q+1)/2)
 		y = next;
+		now = end;
 	}
 	rest = y / (speed * speed);
 	return unloading;
@@ -72,12 +121,12 @@ namespace {
 		const double strength = t.strength.force(t.crushed), a = t.response,
 		             limit = std::sqrt(2 * a * spring.energyAt(strength)), speed = t.speed / limit;
 		// Below it the largest force, at most that of an undamped spring and of its dashpot at the first speed
-		if ((1 + 2 * ratio) * std::pow(speed, 2 * q / (q + 1)) <= 1) return elastic;
+		if ((1 + 2 * ratio) * power(speed, 2 * q / (q + 1)) <= 1) return elastic;
 		double rest;
 		const double rebound = reboundAtStrength(ratio, q, speed, rest) * limit;
 		if (rest == 0) return rebound;
 		const double plastic = plasticOverlap(t.strength, t.crushed, rest * t.speed * t.speed / (2 * a));
-		return rebound * std::pow(t.strength.force(plastic) / strength, (1 + 1 / q) / 2);
+		return rebound * power(t.strength.force(plastic) / strength, (1 + 1 / q) / 2);
 	}
 
 	/// Durations of an impact: of the undamped elastic one, or the one at the strength, and with crushing. [s]

@@ -56,10 +56,10 @@ double restitution(double ratio);
 struct PowerSpring {
 	double overlap, force, stiffness; ///< > 0 [m, N, N/m]
 
-	double power() const { return stiffness * overlap / force; } ///< q [-]
+	double power() const; ///< q, without the rounding errors of force and stiffness [-]
 	double energy() const { return force * overlap / (power() + 1); } ///< [J]
 	/// Energy at that force. [J]
-	double energyAt(double other) const { return energy() * std::pow(other / force, 1 + 1 / power()); }
+	double energyAt(double other) const;
 	/// Duration of the undamped impact of a mass [kg] with a speed > 0 [m/s]. [s]
 	double duration(double mass, double speed) const;
 };

@@ -78,7 +78,8 @@ struct JointState {
 		return springs == now.springs && stiffness.normal == now.stiffness.normal
 		        && stiffness.shear == now.stiffness.shear && pairInverseMass == now.pairInverseMass
 		        && std::abs(inverseInertia - now.inverseInertia) <= 1e-9 * inverseInertia
-		        && std::abs(relative.dot(now.relative)) > std::cos(modeAngle / 2);
+		        // Cosine of half the angle
+		        && std::abs(relative.dot(now.relative)) > 1 - modeAngle * modeAngle / 8;
 	}
 };
 

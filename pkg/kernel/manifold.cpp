@@ -97,7 +97,7 @@ namespace {
 			switch (id.kind()) {
 				case FeatureKind::VertexFace: return id.b() == first->b();
 				case FeatureKind::FaceVertex: return id.a() == first->a();
-				default: return id.kind() == FeatureKind::EdgeEdge;
+				default: return true;
 			}
 		};
 		return size_t(
@@ -105,7 +105,7 @@ namespace {
 		        - first);
 	}
 
-	/// Tests a batch of candidates and adds their contact points.
+	/// Tests a batch of candidates, of vertices and faces or of edges, and adds their contact points.
 	template <class Number>
 	void addBatch(const ShapePair& pair, const FeatureId* first, size_t count, PointCollector& points)
 	{
@@ -119,10 +119,7 @@ namespace {
 		};
 		const FeatureKind kind = first->kind();
 		if (kind == FeatureKind::EdgeEdge) add(edgeEdgeContact(pair, first, count, points.vertices, contact));
-		else if (kind == FeatureKind::VertexFace || kind == FeatureKind::FaceVertex)
-			add(vertexFaceContact(pair, first, count, contact));
-		else if constexpr (std::is_same_v<Number, double>)
-			add(extraPatternContact(pair, *first, points.vertices, contact));
+		else add(vertexFaceContact(pair, first, count, contact));
 	}
 
 	/// Centre of the common part of the projections of both cores onto a direction, from the origin of A. [m]
@@ -212,6 +209,17 @@ namespace {
 		}
 	}
 
+	/// Step 4, of candidates of extra patterns from `next` to `end`.
+	void testExtraPatterns(
+	        const ShapePair& pair, const FeatureId* next, const FeatureId* end, PointCollector& points)
+	{
+		FeatureContact<double> contact;
+		for (; next != end; ++next)
+			if (extraPatternContact(pair, *next, points.vertices, contact)
+			        && (!pair.isDeep() || contact.normal.dot(pair.axis) >= deepNormalCosine))
+				points.add(next, 1, true, contact);
+	}
+
 	/// Step 4. The points are sorted by id.
 	void testCandidates(const ShapePair& pair, const std::vector<FeatureId>& candidates, PointCollector& collector,
 	        std::vector<ContactPoint>& points)
@@ -225,7 +233,7 @@ namespace {
 		                       *const extras = firstOf(FeatureKind::VertexEdge);
 		testCandidates(pair, first, edges, collector);
 		const auto onFaces = std::ptrdiff_t(points.size());
-		testCandidates(pair, extras, end, collector);
+		testExtraPatterns(pair, extras, end, collector);
 		const auto ofVertices = std::ptrdiff_t(points.size());
 		testCandidates(pair, edges, extras, collector);
 		std::rotate(points.begin() + onFaces, points.begin() + ofVertices, points.end());

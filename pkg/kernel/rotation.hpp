@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Torque-free rotation of rigid bodies.
 #pragma once
+#include "portable_math.hpp"
 #include "preconditions.hpp"
 #include <cassert>
 #include <cmath>
@@ -8,15 +9,13 @@
 
 namespace timber {
 
-inline double sine(double x) { return std::sin(x); }
-inline double cosine(double x) { return std::cos(x); }
 inline Lanes sine(Lanes x)
 {
-	return eachLane(x, [](double one) { return std::sin(one); });
+	return eachLane(x, [](double one) { return sine(one); });
 }
 inline Lanes cosine(Lanes x)
 {
-	return eachLane(x, [](double one) { return std::cos(one); });
+	return eachLane(x, [](double one) { return cosine(one); });
 }
 
 /// Sine and cosine; for small arguments by power series, exact to rounding.

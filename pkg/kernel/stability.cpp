@@ -59,7 +59,7 @@ double largestEigenvalue(const std::vector<SolverBody>& bodies, const std::vecto
 	std::vector<Twist> x(bodies.size());
 	for (size_t k = 0; k < x.size(); ++k) // a start vector that is orthogonal to no eigenvector by symmetry
 		for (int i = 0; i < 6; ++i)
-			x[k][i] = std::sin(1 + 7.3 * double(k) + 2.9 * i);
+			x[k][i] = double((6 * k + size_t(i) + 1) * 40503 % 65536) / 32768 - 1;
 	double value = 0;
 	for (int round = 0; round < rounds; ++round) {
 		const double length = norm(x);

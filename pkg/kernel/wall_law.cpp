@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "wall_law.hpp"
+#include "portable_math.hpp"
 #include "slip_law.hpp"
 #include <algorithm>
 #include <cassert>
@@ -152,7 +153,7 @@ WallLaw::Bound WallLaw::bound(double u, const Line& p) const
 		return { p, start, aim, { slope, p.at(start) - slope * start } };
 	}
 	const double slope = std::min(
-	        cycles.stiffness, cycles.reloadStiffness * std::pow(cycles.reloadStretch / aim, cycles.reloadPower));
+	        cycles.stiffness, cycles.reloadStiffness * power(cycles.reloadStretch / aim, cycles.reloadPower));
 	const Line reload { slope, end - slope * aim };
 	const double start = slope > p.slope ? (p.offset - reload.offset) / (slope - p.slope) : least;
 	return { p, std::max(least, start), aim, reload };

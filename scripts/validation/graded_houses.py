@@ -49,16 +49,12 @@ DAMPED = 0.10
 TEST = {1.0: "storey 1 collapses", 1.25: "stands, joints loosened", 1.5: "stands, 1/26"}
 
 
-def tasks(files, shaking, seeds, folder):
-    """{(grade, level): [Task]}; seed 1 is the undisturbed house."""
-    runs = {}
-    for (grade, level), path in files.items():
-        for number in range(1, seeds + 1):
-            options = RunOptions(house=str(path.resolve()), **shaking, until_collapse=True,
-                                 disturb=number if number > 1 else None, no_frames=True)
-            task = Task("house", folder / path.stem / f"{number:03d}", options)
-            runs.setdefault((grade, level), []).append(task)
-    return runs
+def tasks(path, shaking, seeds, folder):
+    """Runs of a house; seed 1 is undisturbed."""
+    return [Task("house", folder / path.stem / f"{number:03d}",
+                 RunOptions(house=str(path.resolve()), **shaking, until_collapse=True,
+                            disturb=number if number > 1 else None, no_frames=True))
+            for number in range(1, seeds + 1)]
 
 
 def motion_of(given, folder):
@@ -70,6 +66,19 @@ def motion_of(given, folder):
     stated = {"record": str(path), "start": given.start, "end": given.end, "scale": given.scale}
     motion = processing.trim(read_motion(path), given.start or 0.0, given.end)
     return processing.scaled(motion, given.scale), stated
+
+
+def add_motion_options(options):
+    """Those of motion_of()."""
+    options.add_argument("--record", type=record, metavar="PREFIX",
+                         help="recorded motion (default: a motion of kobe_like.py)")
+    options.add_argument("--seed", type=seed, default=0, metavar="N",
+                         help="of the synthetic motion (default %(default)s)")
+    options.add_argument("--start", type=non_negative, metavar="S",
+                         help="start of the part of the motion that is run [s]")
+    options.add_argument("--end", type=positive, metavar="S", help="end of that part [s]")
+    options.add_argument("--scale", type=positive, default=1.0, metavar="X",
+                         help="factor on the motion (default %(default)g)")
 
 
 def before_failure(drifts):
@@ -135,15 +144,7 @@ def draw(rows, path):
 def parsed():
     options = Parser(__doc__)
     add_driver_options(options, Path("results/graded_houses"))
-    options.add_argument("--record", type=record, metavar="PREFIX",
-                         help="recorded motion (default: a motion of kobe_like.py)")
-    options.add_argument("--seed", type=seed, default=0, metavar="N",
-                         help="of the synthetic motion (default %(default)s)")
-    options.add_argument("--start", type=non_negative, metavar="S",
-                         help="start of the part of the motion that is run [s]")
-    options.add_argument("--end", type=positive, metavar="S", help="end of that part [s]")
-    options.add_argument("--scale", type=positive, default=1.0, metavar="X",
-                         help="factor on the motion (default %(default)g)")
+    add_motion_options(options)
     options.add_argument("--seeds", type=count, default=4, metavar="N",
                          help="runs of each house, 2 to N disturbed by 1e-9 m (default %(default)s)")
     options.add_argument("--rule", choices=RULES, default="law",
@@ -164,7 +165,7 @@ def main():
     levels = selected(given.levels, LEVELS, "--levels")
     files = {(grade, level): house_file(given.out, grade, level, given.rule) for level in levels
              for grade in RULES[given.rule]}
-    runs = tasks(files, shaking, given.seeds, given.out)
+    runs = {key: tasks(path, shaking, given.seeds, given.out) for key, path in files.items()}
     run_missing([task for each in runs.values() for task in each], SCRIPTS, given.jobs)
     rows = []
     for key, each in runs.items():

@@ -62,18 +62,20 @@ class SlipSpring:
 
 @dataclass
 class Storey:
-    """mass: of its upper level [kg]; height [m]; weight: of all above [N]; edges: their distance a [m]; SlipSprings."""
+    """mass: of its upper level [kg]; height [m]; weight: of all above [N]; edges: their distance a [m]; SlipSprings;
+    p_delta: share of the weight that drives the drift [-]."""
 
     mass: float
     height: float
     weight: float
     edges: float
     springs: list
+    p_delta: float = 1.0
 
     def shear(self, drift):
         """[N]"""
         rocking = self.weight * self.edges / self.height * max(-1.0, min(1.0, drift / ROCKING_DRIFT))
-        return sum(spring.shear(drift) for spring in self.springs) + rocking - self.weight * drift
+        return sum(spring.shear(drift) for spring in self.springs) + rocking - self.p_delta * self.weight * drift
 
     def stiffness(self):
         """Initial, of the springs. [N/m]"""
@@ -85,7 +87,7 @@ class Storey:
 
     def at_rest(self):
         """Stiffness at small drift, of springs, rocking and P-delta. [N/m]"""
-        return self.stiffness() + self.weight * (self.edges / self.height / ROCKING_DRIFT - 1) / self.height
+        return self.stiffness() + self.weight * (self.edges / self.height / ROCKING_DRIFT - self.p_delta) / self.height
 
 
 def slip_spring(stiffness, strength, friction_share, softening, ultimate):

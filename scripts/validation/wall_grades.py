@@ -77,13 +77,10 @@ def listed(value):
     return value if isinstance(value, (list, tuple)) else [value]
 
 
-def graded_house(grade, level, rule, uncounted=()):
-    """Content of the house file of a grade, level of walls and rule, as a dict. uncounted: wall types that become
-    finishes, so that the others alone have the quantity and these their own shear."""
-    data = changed_house(HOUSE)
-    for name in uncounted:
-        data["wall_types"][name] |= {"finish": True, "multiplier": 0.0}
-    model = build_house(load_house(HOUSE))
+def graded_house(grade, level, rule, house=HOUSE):
+    """Content of the house file of a grade, level of walls and rule, as a dict. house: with the plan"""
+    data = changed_house(house)
+    model = build_house(load_house(house))
     walls, types = [], {}
     for (storey, direction), factor in factors(model, data["wall_types"], grade, rule).items():
         for name, table in data["wall_types"].items():

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Contacts with a bearing strength: its area, paths of loading, impacts and energy.
+#include <array>
 #include <gtest/gtest.h>
 #include <kernel/contact_pair.hpp>
 
@@ -280,4 +281,49 @@ TEST(Crushing, ConvergesToTheEquationOfMotion)
 			EXPECT_NEAR(drop.restitution(sweeps), exact, 2e-3) << sweeps << " " << ratio;
 			EXPECT_LE(drop.largest, 1 + rounding);
 		}
+}
+
+/// A crushed point whose surfaces have parted is idle: the step is that of the other point alone, to the last bit.
+TEST(Crushing, LeavesOutIdlePoints)
+{
+	const Vec3 none = Vec3::Zero();
+	const double h = 1e-4;
+	PairProperties pair { mass, 0.5, 0.4, 1, 0.1 };
+	pair.strength = { 1e3, 1e5, 0 };
+	const auto step = [&](const std::vector<ContactPoint>& points, std::vector<PointRecord>& records) {
+		elasticPair(
+		        hertz, { pair, { none, none, none }, { none, { 0.01, 0, -0.01 }, none }, h }, points, records);
+		std::vector<SolverBody> bodies(2, { none, none, none, none, 0, Mat3::Zero(), none });
+		bodies[1] = { none, none, { 0.01, 0, -0.01 }, { 0, 0.1, 0 }, 1 / mass, Mat3::Identity(), none };
+		ContactSolver solver;
+		solver.begin(bodies, h, 100);
+		solver.addPair(0, 1, records.data(), records.size());
+		prepareContacts(solver, 0, pair, points);
+		solver.solve(1e-12);
+		PairEnergies energies;
+		const PairForce force = storeForces(solver, 0, pair, energies);
+		return std::array<double, 5> { bodies[1].newVelocity.x(), bodies[1].newVelocity.z(),
+			bodies[1].newSpin.y(), force.torqueB.y(),
+			energies.elasticNormal + energies.dashpotNormal + energies.friction };
+	};
+	const auto at = [&](FeatureId id, double x, double overlap) {
+		return ContactPoint { id, {}, { x, 0, 0 }, Vec3::UnitZ(), overlap };
+	};
+	std::vector<PointRecord> records;
+	for (int k = 1; k <= 20; ++k)
+		step({ at(vertex, 0, k * 1e-4), at(edge, 0.1, k * 1e-4) }, records);
+	const double dent = records[0].crushed;
+	ASSERT_GT(dent, 1e-3);
+	const std::vector<ContactPoint> parted { at(vertex, 0, dent / 2), at(edge, 0.1, 2e-3) };
+	step(parted, records);
+	ASSERT_FALSE(records[1].isIdle());
+	std::vector<PointRecord> alone { records[1] };
+	for (int k = 0; k < 5; ++k) {
+		const auto both = step(parted, records), one = step({ parted[1] }, alone);
+		EXPECT_TRUE(records[0].isIdle());
+		EXPECT_EQ(both, one);
+		EXPECT_EQ(records[0].crushed, dent);
+	}
+	step({ at(vertex, 0, dent + 1e-5), at(edge, 0.1, 2e-3) }, records);
+	EXPECT_FALSE(records[0].isIdle());
 }

@@ -167,16 +167,27 @@ TEST(Impact, RestitutionIsTheClosedForm)
 		EXPECT_NEAR(restitution(expected.ratio * std::sqrt(1.2)), expected.hertz, 4e-5);
 	EXPECT_EQ(restitution(0), 1);
 	EXPECT_NEAR(restitution(1), std::exp(-2), 1e-12);
+	for (const double D : { 0.01, 0.1, 0.5, 0.9, 1.1, 2., 10., 100. }) {
+		const double angle = D < 1 ? std::acos(D) : std::acosh(D), root = std::sqrt(std::abs(1 - D * D));
+		EXPECT_NEAR(restitution(D) / std::exp(-2 * D * angle / root), 1, 1e-13) << D;
+	}
 	EXPECT_NEAR(restitution(1 - 1e-5), std::exp(-2), 1e-5);
 	EXPECT_NEAR(restitution(1 + 1e-5), std::exp(-2), 1e-5);
 }
 
-/// t v / d = 2.9432750 for Hertz's law; half a period for the linear one.
+/// t v / d = 2.9432750 for Hertz's law; half a period for the linear one; 2 pi^1/2 Gamma(s + 1) / Gamma(s + 1/2) with
+/// s = 1/(q + 1) for any power q.
 TEST(Impact, DurationIsTheClosedForm)
 {
 	const double depth = std::pow(5 * mass * speed * speed / (4 * hertz.force(1.)), 0.4); // (5 m v^2 / 4 c)^0.4
 	EXPECT_NEAR(springOf(hertz).duration(mass, speed), 2.9432750 * depth / speed, 1e-6 * depth);
 	EXPECT_NEAR(springOf(linear).duration(mass, speed), M_PI * std::sqrt(mass / linear.constant), 1e-12);
+	for (const double q : { 1., 1.2, 1.5, 2., 4. }) {
+		const double d = 1e-3, force = 100, s = 1 / (q + 1), energy = force * d * s;
+		const PowerSpring spring { d, force, q * force / d };
+		const double exact = 2 * std::sqrt(M_PI) * std::tgamma(s + 1) / std::tgamma(s + 0.5) * d / speed;
+		EXPECT_NEAR(spring.duration(2 * energy / (speed * speed), speed) / exact, 1, 1e-12) << q;
+	}
 	EXPECT_NEAR(springOf(hertz, 1e-7).duration(mass, speed), springOf(hertz, 1e-3).duration(mass, speed), 1e-12);
 }
 

@@ -77,14 +77,17 @@ def explained(i, j):
 
 
 def overlap_of_load(a, b):
-    """Overlap at which the law has the elastic force of the most loaded point of a pair: Hertz's, of snow linear. [m]
+    """Overlap at which the law has the elastic force of the most loaded point of a pair, Hertz's, of snow linear, and
+    the largest plastic overlap of a point. [m]
     """
     if not (O.interactions.has(a.id, b.id) and O.interactions[a.id, b.id].isReal):
         return 0.0
-    force = max((point[1] for point in O.interactions[a.id, b.id].phys.points), default=0.0)
+    points = O.interactions[a.id, b.id].phys.points
+    force = max((point[1] for point in points), default=0.0)
+    crushed = max((point[4] for point in points), default=0.0)
     snow = [m.material.stiffnessPerMass * m.state.mass for m in (a, b) if isinstance(m.material, yw.SnowMat)]
     if snow:
         return force / min(snow)
     modulus = 1 / sum((1 - m.material.poisson**2) / m.material.young for m in (a, b))
     radius = 1 / sum((3 * m.state.mass / m.material.density / (4 * math.pi)) ** (-1 / 3) for m in (a, b))
-    return (force / (4 / 3 * modulus * math.sqrt(radius))) ** (2 / 3)
+    return crushed + (force / (4 / 3 * modulus * math.sqrt(radius))) ** (2 / 3)

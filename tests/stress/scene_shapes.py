@@ -56,8 +56,8 @@ def solid(corners, centre, mass, friction=0.5):
     return yt.polyhedron(corners + np.array(centre), yt.timber(density=density, friction=friction))
 
 
-def placed(make, extents, centre, mass, yaw=0.0, pitch=0.0, fixed=False, friction=0.5):
-    """Box by `yt.box` of a mass [kg], turned about y, then about z [rad]."""
-    material = yt.timber(density=mass / np.prod(extents), friction=friction)
+def placed(make, extents, centre, mass, yaw=0.0, pitch=0.0, fixed=False, friction=0.5, bearing=None):
+    """Box by `yt.box` of a mass [kg] and a bearing strength [Pa], turned about y, then about z [rad]."""
+    material = yt.timber(density=mass / np.prod(extents), friction=friction, bearing=bearing)
     turn = Quaternion(Vector3(0, 0, 1), yaw) * Quaternion(Vector3(0, 1, 0), pitch)
     return make(extents, centre, turn, material, fixed)

@@ -38,9 +38,9 @@ def test_braced_house():
 
 
 def test_tiled_house():
-    """Heavy; E-W, storey 1: outer walls 2 x 4 bays of 4.4, inner walls 5 bays of 3.4, all 0.91 m."""
+    """Heavy; E-W, storey 1: plywood in 2 x 4 bays of outer walls and 5 bays of inner ones, all 0.91 m."""
     one = side("tiled_house", "main", "1", "ew")
-    quantity, area = 0.91 * (8 * 4.4 + 5 * 3.4), 7.28 * 6.37
+    quantity, area = 0.91 * 2.5 * (8 + 5), 7.28 * 6.37
     assert one["wall_quantity_m"] == pytest.approx(quantity, abs=1e-3)
     assert one["wall_quantity_ratio"] == pytest.approx(quantity / (0.33 * area), abs=1e-3)
     assert one["iw"] == pytest.approx((1.96 * quantity + 0.25 * 1.06 * area) / (1.06 * area), abs=1e-3)
@@ -50,7 +50,8 @@ def test_house_that_is_not_symmetric():
     """Side wing: both N-S braces on its east line, 2.275 m from its middle; four E-W ones on lines 3.64 m apart.
 
     Torsion: E-W 3.64 m x 1.82^2 m2; radius^2 = torsion / 3.64 m of N-S quantity = 1.82^2.
-    Mass: floor, beams, roof and columns lie symmetric to the middle; the four braces of storey 2, 45 x 90 x 2878 mm,
+    Mass: floor, beams, roof, columns and outer walls of 0.26 kN/m2 lie symmetric to the middle; the four braces
+    of storey 2, 45 x 90 x 2878 mm,
     lie 2.275 m (two) and 1.82 m (two) east of it. Tolerance: braces are up to 2 % shorter than the diagonal, 2e-4 of
     Re, and Re is rounded to 5e-4.
     """
@@ -59,7 +60,8 @@ def test_house_that_is_not_symmetric():
     floor, roof = 4.67 * 3.76 * 0.20, 4.67 * 3.76 * 0.12 * 1.16**0.5
     beams, columns = 2 * 0.12**2 * (2 * 3.76 + 2 * 4.43), 18 * 0.12**2 * 2.73
     brace = 0.045 * 0.09 * 2.878
-    shift = brace * 2 * (2.275 + 1.82) / (floor + roof + beams + columns + 4 * brace)
+    walls = 260 / 9.81 / 340 * 2 * (4.55 + 3.64) * 2.73
+    shift = brace * 2 * (2.275 + 1.82) / (floor + roof + beams + columns + walls + 4 * brace)
     assert one["eccentricity"] == pytest.approx((2.275 - shift) / 1.82, abs=7e-4)
     assert one["quarters"][0] == 0 and not one["balanced"] and one["ekfl"] == 0.5
     area = 4.55 * 3.64

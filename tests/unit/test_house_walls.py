@@ -217,7 +217,10 @@ def test_finishes_are_taken_off(tmp_path):
 
 
 def test_walls_that_cover_a_part_of_the_height(tmp_path):
-    """0.6 times the share of the height; not counted."""
+    """0.6 times the share of the height, of wood lath this share alone; not counted."""
+    lath = [sheets(house(tmp_path, f"{{along: x, at: 4, from: 0, to: 1, type: lath_plaster, storeys: 1{end}}}"))[0]
+            for end in ("", ", panel: 0.5")]
+    assert lath[1].strength == pytest.approx(0.5 * lath[0].strength)
     line = "{along: x, at: 4, from: 0, to: 1, type: plywood, storeys: 1%s}"
     whole, part = (house(tmp_path, line % end) for end in ("", ", panel: 0.5"))
     assert sheets(part)[0].strength == pytest.approx(0.3 * sheets(whole)[0].strength)

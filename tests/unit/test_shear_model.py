@@ -3,6 +3,7 @@
 """The lumped-mass model and the graded houses of scripts/validation, against closed forms and sums by hand."""
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,12 +11,14 @@ from scipy.signal import lsim
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts" / "validation"))
 
+import graded_changes as changes
 import graded_houses as graded
 import kobe_like
 import shear_model as shear
 import wall_grades as grades
 from house_storeys import AXES, column_ends, wall_joints, wall_springs
 from wall_spring import WallSpring
+from timber_houses.base.errors import RunError
 
 HEIGHT = 2.73
 """[m]"""
@@ -130,18 +133,18 @@ def test_loop_of_a_wall():
 
 
 def test_existing_wall_quantity_by_hand():
-    """Storey 1, E-W: eight outer bays of 0.91 m of 2.5 + 1 + 0.9, five inner ones of 2.5 + 0.9. N-S: eight, four."""
+    """Storey 1, E-W: plywood in eight outer bays of 0.91 m and five inner ones. N-S: eight, four."""
     model, data = grades.build_house(grades.load_house(grades.HOUSE)), grades.changed_house(grades.HOUSE)
     found = {d: grades.existing_quantity(model, data["wall_types"], 1, d) for d in AXES}
-    assert found == pytest.approx({"ew": 0.91 * (8 * 4.4 + 5 * 3.4), "ns": 0.91 * (8 * 4.4 + 4 * 3.4)})
+    assert found == pytest.approx({"ew": 0.91 * 2.5 * 13, "ns": 0.91 * 2.5 * 12})
 
 
 def test_factors_meet_the_required_quantity():
     """33 and 21 cm per m2 of 7.28 m x 6.37 m."""
     model, data = grades.build_house(grades.load_house(grades.HOUSE)), grades.changed_house(grades.HOUSE)
     factors = grades.factors(model, data["wall_types"], 1.25)
-    assert factors[1, "ew"] == pytest.approx(1.25 * 0.33 * 7.28 * 6.37 / (0.91 * 52.2))
-    assert factors[2, "ns"] == pytest.approx(1.25 * 0.21 * 7.28 * 6.37 / (0.91 * 48.8))
+    assert factors[1, "ew"] == pytest.approx(1.25 * 0.33 * 7.28 * 6.37 / (0.91 * 2.5 * 13))
+    assert factors[2, "ns"] == pytest.approx(1.25 * 0.21 * 7.28 * 6.37 / (0.91 * 2.5 * 12))
 
 
 def test_wall_quantities_of_the_performance_labelling():
@@ -161,9 +164,8 @@ def test_a_graded_house_has_its_walls(level, tmp_path):
     for (storey, direction), factor in factors.items():
         before, after = (wall_joints(m, storey, direction) for m in (plain, model))
         assert len(after) == len(before)
-        for is_finish, ratio in ((False, factor), (True, 1.0)):
-            old, new = ([j for j in joints if j.type.startswith("gypsum_lining") == is_finish]
-                        for joints in (before, after))
+        for is_counted, ratio in ((True, factor), (False, 1.0)):
+            old, new = ([j for j in joints if j.type.startswith("plywood") == is_counted] for joints in (before, after))
             assert sum(j.kn for j in new) == pytest.approx(ratio * sum(j.kn for j in old))
             assert sum(j.strength for j in new) == pytest.approx(ratio * sum(j.strength for j in old))
 
@@ -195,6 +197,24 @@ def test_peaks_count_until_a_storey_fails():
     peak, failed = graded.before_failure(drifts)
     assert peak.tolist() == [0.05, 0.02] and failed
     assert graded.before_failure(drifts[:2])[1] is False
+
+
+def test_rows_of_single_changes(tmp_path):
+    """Changes joined by +; a row without runs has empty drifts; finishes are scaled to the stated share of the rule."""
+    given = SimpleNamespace(changes="finishes 2.1 + damping 2 %, no P-delta", grades="1.25", levels="mean")
+    scaled, model_alone = changes.cases_of(given)
+    assert scaled.has_runs and not model_alone.has_runs
+    path = scaled.house_file(tmp_path, "law")
+    assert changes.finish_ratio(path) == pytest.approx(2.1)
+    assert changes.load_house(path).data["law"]["joint_damping"] == 0.02
+    assert changes.median_drift([], "centre", "ew") == ""
+    assert [storey.p_delta for storey in model_alone.storeys(path, "ew")] == [0.0, 0.0]
+
+
+@pytest.mark.parametrize("wrong", [{"changes": "siding + no such"}, {"grades": "2"}, {"levels": "low"}])
+def test_unknown_rows_are_refused(wrong):
+    with pytest.raises(RunError, match="known"):
+        changes.cases_of(SimpleNamespace(**{"changes": "siding", "grades": "1", "levels": "mean"} | wrong))
 
 
 # --- motion -----------------------------------------------------------------------------------------------------------

@@ -44,7 +44,7 @@ def test_report_runs_both_levels(tmp_path):
     """A pulse for which the levels differ is not needed: the other run's verdict is in the summary. A house without
     rated walls has one run.
     """
-    for house, walls in (("tiled_house", "design"), ("storehouse", None)):
+    for house, walls in (("tiled_house", "design"), ("l_house", None)):
         out = tmp_path / house
         words = [
             "yade", "-n", "-x", ROOT / "scripts" / "house.py", house, "--duration", "0.01", "--report", "--no-views",

@@ -148,6 +148,11 @@ def halfspace_vertices(planes):
     return np.round(corners, SNAP_DIGITS) + 0.0
 
 
+def products(a, b):
+    """Matrix product a b without BLAS, whose last bits depend on the processor."""
+    return np.einsum("ij,jk->ik", a, b)
+
+
 def polygon_area(points):
     """Signed area [m2] of a plane polygon (n, 2), positive when counter-clockwise."""
     x, y = points.T
@@ -190,10 +195,10 @@ def contact_polygon(a, b, tolerance):
         if np.abs(face_b.points @ face_a.normal - face_a.offset).max() > tolerance:
             continue
         origin, frame = face_a.points[0], face_a.axes
-        flat = clip_convex((face_a.points - origin) @ frame.T, ((face_b.points - origin) @ frame.T)[::-1])
+        flat = clip_convex(products(face_a.points - origin, frame.T), products(face_b.points - origin, frame.T)[::-1])
         area = polygon_area(flat)
         if area > (best[2] if best else 0):
-            best = origin + flat @ frame, face_a.normal, area
+            best = origin + products(flat, frame), face_a.normal, area
     return best
 
 

@@ -126,7 +126,7 @@ wall_type = Record({"multiplier": Number("", 0.0, 20.0, default=None),
                     "reload_target": Number("", 1.0, 2.0, default=None),
                     "friction_share": Number("", 0.0, 1.0, default=None), "softening_drift": _drift,
                     "ultimate_drift": _drift, "residual_share": Number("", 0.0, 0.95, default=0.0),
-                    "finish": Flag(False)})
+                    "panel_share": Number("", 0.1, 1.0, default=0.6), "finish": Flag(False)})
 joint_rule = Record({"between": ListOf(ListOf(Choice(KINDS), scalar=True, most=len(KINDS)), 2), "type": word(),
                      "kind": word(), "across": Flag(False),
                      "number": Number("fittings", 1, 100, whole=True, default=1),

@@ -28,9 +28,6 @@ SHARE = 0.5
 OPENINGS = {"none": (1.0, 1.0, 1.0), "window": (0.4, 0.3, 0.2), "door": (0.2, 0.15, 0.1)}
 """Strength and stiffness over those without an opening, in bays up to 1 m, up to 2 m, and longer (strength: JBDPA,
 precise diagnosis of 2004; stiffness: assumed to be the same). [-]"""
-PANEL = 0.6
-"""Share of the shear of quasi-bearing, hanging and spandrel walls that cover the whole clear height, over that of a
-bearing wall. [-] (evaluation standard of the performance labelling, Notification 1347 of 2001; not verified)"""
 REACH = 1e-3
 """Beyond the ends of the columns, where beam and sill are looked for. [m]"""
 
@@ -52,10 +49,9 @@ class Bay:
         """Between the axes of the columns. [m]"""
         return bay_length(self.low, self.high)
 
-    @property
-    def share(self):
-        """Of the strength of a bearing wall without an opening. [-]"""
-        whole = 1.0 if self.panel is None else PANEL * self.panel
+    def share(self, table):
+        """Of the strength of a bearing wall of this type without an opening. [-]"""
+        whole = 1.0 if self.panel is None else table["panel_share"] * self.panel
         return whole * OPENINGS[self.opening][np.searchsorted((1.0, 2.0), self.length - 1e-9)]
 
 
@@ -128,7 +124,7 @@ def _joints(bay, name, members, data, level):
 def _values(bay, table, level, lever, ratio):
     """Law of one half. table: wall type; lever: stretch over drift [m]; ratio: force of the spring over the shear that
     it stands for [-]. The spring unloads along the steepest line of its envelope, unless its cycles are steeper."""
-    part = SHARE * bay.share * bay.length * ratio
+    part = SHARE * bay.share(table) * bay.length * ratio
     points, cyclic = envelope(table, level), cycles(table, level)
     scaled = tuple((lever * drift, part * shear) for drift, shear in points)
     slopes = [(f1 - f0) / (d1 - d0) for (d0, f0), (d1, f1) in zip(((0.0, 0.0), *scaled), scaled)]

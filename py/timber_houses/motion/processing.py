@@ -34,7 +34,8 @@ def in_axes(motion, axes):
     """The motion in other axes. axes: (3, 3), their directions as columns"""
     if np.array_equal(axes, np.eye(3)):
         return motion
-    return replace(_changed(motion, motion.acceleration @ axes, ""), source=motion.source)
+    turned = np.einsum("ij,jk->ik", motion.acceleration, axes)  # without BLAS: the same bits on every processor
+    return replace(_changed(motion, turned, ""), source=motion.source)
 
 
 def round_off(x):

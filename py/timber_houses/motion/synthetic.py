@@ -202,7 +202,11 @@ def _at_rest(acceleration):
     t = _times()
     phase = np.clip((t - P_ARRIVAL - 0.5) / (DURATION - P_ARRIVAL - 1.0), 0.0, 1.0)
     corrections = np.column_stack([np.sin(np.pi * phase) ** 2, np.sin(np.pi * phase) ** 2 * np.cos(np.pi * phase)])
-    return acceleration - corrections @ np.linalg.solve(_final_state(corrections), _final_state(acceleration))
+    # Cramer's rule and einsum: the last bits of BLAS and LAPACK depend on the processor
+    (a, b), (c, d) = _final_state(corrections)
+    speed, displacement = _final_state(acceleration)
+    weights = np.array([d * speed - b * displacement, a * displacement - c * speed]) / (a * d - b * c)
+    return acceleration - np.einsum("ij,jk->ik", corrections, weights)
 
 
 def _final_state(acceleration):

@@ -5,7 +5,8 @@ sticking.
 K x = omega^2 M x with six degrees of freedom per free body. K has the present tangent stiffness of every contact point
 and joint spring, and the geometric stiffness of their present forces, by which weight softens a frame (P-delta). A
 negative omega^2 is an instability. Contacts that do not touch have no stiffness: the scene should have settled.
-Yielding joints have the stiffness with which they unload.
+Yielding joints have the stiffness with which they unload; walls that have not yielded, on request, that of the first
+line of their envelope.
 
 Free motions are left out: of bodies that no springs join to a fixed body, and slower than SLOWEST.
 Modes of equal omega^2 have shapes by convention, so that a scene has one result, whatever was computed before.
@@ -19,6 +20,7 @@ from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import ArpackError, eigsh
 from yade_timber.plugin import compiled
 from yade_timber.scene.background import between_steps
+from yade_timber.scene.engines import find_engine
 
 SHIFT = -1.0
 """Eigenvalues nearest to this are found first [1/s2]; below zero, since a wreck has many at zero."""
@@ -59,22 +61,40 @@ class Mode:
         return 2 * np.pi / np.sqrt(self.omega2) if self.omega2 > 0 else np.inf
 
 
-def springs():
-    """Springs of the scene as it is now."""
+def springs(initial=False):
+    """Springs of the scene as it is now. initial: walls, which have not yielded, have the stiffness at no drift"""
     pairs, values = compiled.packed_springs()
     values = np.frombuffer(values, "f8").reshape(-1, 14)
-    arm = values[:, :6].reshape(-1, 2, 3)
-    return Springs(np.frombuffer(pairs, "i4").reshape(-1, 2), arm, values[:, 6:9], values[:, 9:11], values[:, 11:])
+    arm, stiffness = values[:, :6].reshape(-1, 2, 3), values[:, 9:11]
+    engine = find_engine(yw.JointEngine)
+    if initial and engine is not None:
+        shares = np.array([_initial_share(joint) for joint in engine.joints])[joint_of_springs(engine.joints)]
+        stiffness = stiffness * np.concatenate([np.ones(len(stiffness) - len(shares)), shares])[:, None]
+    return Springs(np.frombuffer(pairs, "i4").reshape(-1, 2), arm, values[:, 6:9], stiffness, values[:, 11:])
+
+
+def joint_of_springs(joints):
+    """Index of the joint of each unbroken spring; in Springs they stand behind those of the contacts."""
+    return np.repeat(np.arange(len(joints)), [len(joint.broken) - sum(joint.broken) for joint in joints])
+
+
+def _initial_share(joint):
+    """Stiffness of a TimberJoint at no drift over that with which it unloads: of walls, which are elastic there. [-]"""
+    if joint.law != "wall":
+        return 1.0
+    stretch, force = joint.envelope[0]
+    return min(1.0, force / stretch / joint.kn)
 
 
 @between_steps()
-def natural_modes(share=0.05, bodies=None):
+def natural_modes(share=0.05, bodies=None, initial=False):
     """Modes of effective mass east or north >= `share` of the free mass, unstable ones and long periods first.
 
-    Only the SEARCHED lowest modes are looked at. Empty without springs. bodies: ids of those that move, default all
+    Only the SEARCHED lowest modes are looked at. Empty without springs. bodies: ids of those that move, default all;
+    initial: as in springs()
     """
     free = [b for b in O.bodies if b is not None and not b.state.blockedDOFs and (bodies is None or b.id in bodies)]
-    mass, linearised = sum(b.state.mass for b in free), springs()
+    mass, linearised = sum(b.state.mass for b in free), springs(initial)
     free = _held(linearised, free)
     if not free:
         return []

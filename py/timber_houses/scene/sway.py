@@ -47,7 +47,7 @@ def damping_times(ratio, bodies, chosen):
 def sway_modes(bodies):
     """Modes of these bodies, all others fixed, that move most of their mass E-W and N-S; one where they are the same,
     none unstable."""
-    found = [mode for mode in modes.natural_modes(bodies=bodies) if mode.omega2 > 0]
+    found = [mode for mode in modes.natural_modes(bodies=bodies, initial=True) if mode.omega2 > 0]
     most = [max(found, key=lambda mode: mode.mass[axis], default=None) for axis in HORIZONTAL]
     return [mode for k, mode in enumerate(most) if mode is not None and mode not in most[:k]]
 
@@ -55,8 +55,7 @@ def sway_modes(bodies):
 def joint_energies(shape):
     """(J,) twice the elastic energy of the joints at the displacements and rotations (N, 6) of the bodies."""
     joints = find_engine(yw.JointEngine).joints
-    springs = modes.springs()
-    owner = np.repeat(np.arange(len(joints)), [len(joint.broken) - sum(joint.broken) for joint in joints])
+    springs, owner = modes.springs(initial=True), modes.joint_of_springs(joints)
     first = len(springs.body) - len(owner)  # behind those of the contacts
     body, arm = springs.body[first:], springs.arm[first:]
     ends = shape[body, :3] + np.cross(shape[body, 3:], arm)

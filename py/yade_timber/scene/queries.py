@@ -46,8 +46,8 @@ def contacts(id1, id2):
     -------
     list of dict
         For each point, world frame: ``position`` [m], ``normal`` (from body 1 to body 2) [-], ``overlap`` [m],
-        ``normal_force`` (elastic and dashpot, >= 0) [N], ``shear_force`` (3,) on body 2 [N]. Empty when the bodies do
-        not touch.
+        ``crushed`` (its plastic part) [m], ``normal_force`` (elastic and dashpot, >= 0) [N], ``shear_force`` (3,) on
+        body 2 [N]. Empty when the bodies do not touch.
 
     Raises
     ------
@@ -62,10 +62,11 @@ def contacts(id1, id2):
     forces = {f[0]: f[1:] for f in interaction.phys.points}
     points = Points()
     for position, normal, overlap, feature in interaction.geom.points:
-        elastic, shear, dashpot = forces.get(feature, (0.0, Vector3.Zero, Vector3.Zero))
+        elastic, shear, dashpot, crushed = forces.get(feature, (0.0, Vector3.Zero, Vector3.Zero, 0.0))
         along = dashpot.dot(normal)
         points.append({"position": position, "normal": sign * normal, "overlap": overlap,
-                       "normal_force": elastic + along, "shear_force": sign * (shear + dashpot - along * normal)})
+                       "crushed": crushed, "normal_force": elastic + along,
+                       "shear_force": sign * (shear + dashpot - along * normal)})
     return points
 
 
