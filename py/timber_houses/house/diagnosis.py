@@ -203,7 +203,6 @@ def _roof_class(model, group):
 
 
 def _bays(model, group):
-    """Rated bays of a structure."""
     totals, bays = Counter(), []
     for low, high, multiplier in [*_sheets(model, group), *_braces(model, group)]:
         totals[tuple(sorted((low, high), key=lambda column: column.name))] += multiplier

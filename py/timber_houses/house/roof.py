@@ -143,7 +143,6 @@ def bodies(structure, layer, depth=None):
 
 
 def lay_roof(structure, layer):
-    """Roof elements, one per slab."""
     elements = _elements(structure, layer, "roof", layer.table, bodies(structure, layer))
     plan = None if layer.table["type"] == "flat" else pitched_plan(structure, layer)
     if plan and plan.is_boxed:

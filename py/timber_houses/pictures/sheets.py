@@ -57,7 +57,6 @@ class Layout:
 
     @property
     def height(self):
-        """Of the sheet. [inch]"""
         return self.head + -(-self.count // self.columns) * (CAPTION + self.panel[1] + GAP) + FOOT
 
     def corners(self):

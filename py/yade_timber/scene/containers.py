@@ -47,8 +47,6 @@ def require_objects(name, value):
 
 
 def _without_none(name, part):
-    """Property whose list is checked."""
-
     def set_list(owner, value):
         require_objects(name, value)
         part.fset(owner, value)
