@@ -17,7 +17,7 @@ background. `help(yt.box)` describes a function. Guide: docs/scenes.md. Houses: 
 """
 from . import host as _host
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 IN_YADE = ("SlipLaw", "box", "connect", "contacts", "energy", "energy_residual", "engines", "export_scene", "guard",
            "polyhedron", "set_velocity", "snow", "stable_dt", "timber")

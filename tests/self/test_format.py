@@ -40,7 +40,8 @@ def test_check_finds_a_fault(tmp_path):
         shutil.copy(ROOT / file, tmp_path / file)
     (tmp_path / "pkg" / "right.cpp").write_text("int f() { return 1; }\n")
     assert check(tmp_path).returncode == 0
-    for name, text in (("pkg/wrong.cpp", "int  f( ){return 1 ;}\n"), ("py/wrong.py", "import os\n")):
+    for name, text in (("pkg/wrong.cpp", "int  f( ){return 1 ;}\n"), ("py/wrong.py", "import os\n"),
+                       ("scripts/wrong.py", "print( 1)\n")):
         (tmp_path / name).write_text(text)
         done = check(tmp_path)
         assert done.returncode == 1 and name in done.stdout + done.stderr

@@ -136,7 +136,7 @@ def _direction(bays, axis, eccentricity, needed, qr, plan):
     quarters = None if needed is None else _quarters(mine, axis, plan, needed)
     return {"wall_quantity_m": round(existing, 3), "required_quantity_m": _rounded(needed),
             "wall_quantity_ratio": _rounded(existing / needed if needed else None), "quarters": quarters,
-            "balanced": None if quarters is None else is_balanced(*quarters, eccentricity),
+            "balanced": None if quarters is None else is_balanced(quarters[0], quarters[1], eccentricity),
             "eccentricity": _rounded(eccentricity), "qu_kn": round(qu, 3), "qr_kn": _rounded(qr),
             "ekfl": round(factor, 3), "dk": rules.DETERIORATION,
             "iw": _rounded(qu * factor * rules.DETERIORATION / qr if qr else None)}
@@ -203,7 +203,6 @@ def _roof_class(model, group):
 
 
 def _bays(model, group):
-    """Rated bays of a structure."""
     totals, bays = Counter(), []
     for low, high, multiplier in [*_sheets(model, group), *_braces(model, group)]:
         totals[tuple(sorted((low, high), key=lambda column: column.name))] += multiplier

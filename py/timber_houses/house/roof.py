@@ -113,7 +113,7 @@ def pitched_plan(structure, layer):
     size, cut = high - low, table.get("corner_cut", 0.0)
     if table["type"] == "gable":
         ridge = table["ridge"] or ("x" if size[0] > size[1] else "y")
-        sides = ENDS[ACROSS[ridge]]
+        sides = tuple(ENDS[ACROSS[ridge]])
     else:
         sides = (table["falls"],) if table["type"] == "mono" else tuple(OUTWARD)
     run = min(np.abs(OUTWARD[side]) @ size for side in sides) / min(len(sides), 2)
@@ -143,7 +143,6 @@ def bodies(structure, layer, depth=None):
 
 
 def lay_roof(structure, layer):
-    """Roof elements, one per slab."""
     elements = _elements(structure, layer, "roof", layer.table, bodies(structure, layer))
     plan = None if layer.table["type"] == "flat" else pitched_plan(structure, layer)
     if plan and plan.is_boxed:

@@ -7,6 +7,7 @@ with defaults filled in. `where`: "file:line"; `name`: path of the key.
 import math
 import re
 from dataclasses import dataclass
+from typing import Any
 
 from ..base.gravity import GRAVITY
 from ..base.input_file import shown
@@ -115,8 +116,8 @@ class Choice:
 class Pair:
     """A list of two different items."""
 
-    first: object
-    second: object
+    first: Any
+    second: Any
     default: object = REQUIRED
 
     def check(self, value, where, name):
@@ -133,7 +134,7 @@ class ListOf:
     """A list of `item`; `scalar` allows one item without brackets; `length` fixes their number, `least` and
     `most` limit it."""
 
-    item: object
+    item: Any
     length: int = 0
     scalar: bool = False
     least: int = 0
@@ -160,7 +161,7 @@ class ListOf:
 class MapOf:
     """A table whose keys the user chooses; every entry follows `item`. `most` limits their number."""
 
-    item: object
+    item: Any
     default: object = REQUIRED
     most: int = MAX_NAMES
 

@@ -166,7 +166,6 @@ def _check_saws(table, path):
 
 
 def _check_cycles(table, path):
-    """Of a checked envelope."""
     if table["friction_share"] is not None:
         for key in SAWS_STATES:
             if table[key] is not None:
@@ -219,7 +218,6 @@ def _with_residual(points, share):
 
 
 def cycles(table, level):
-    """Cycles of a wall type."""
     if table["saws"] is not None:
         return Cycles(**saws.cycles(table["saws"]))
     largest = max(shear for _, shear in envelope(table, level))

@@ -180,11 +180,11 @@ def _changed(motion, acceleration, change, dt=None, factor=1.0, start=0.0):
 
 def _changed_parts(parts, acceleration, dt, factor, start):
     """The motions of a sequence after a change: their times, factors and peaks, without those that are cut off."""
-    changed = ()
+    changed = []
     for part in parts:
         first, end = max(part.start - start, 0.0), min(part.start + part.duration - start, len(acceleration) * dt)
         samples = acceleration[max(0, round(first / dt)) : max(0, round(end / dt))]
         if len(samples):
-            changed += (replace(part, start=first, duration=end - first, scale=factor * part.scale,
-                                pga_gal=peaks_gal(samples)),)
-    return changed
+            changed.append(replace(part, start=first, duration=end - first, scale=factor * part.scale,
+                                   pga_gal=peaks_gal(samples)))
+    return tuple(changed)

@@ -67,7 +67,6 @@ def draw_events(axes, summary):
 
 
 def legend(axis):
-    """Legend to the right of the axes."""
     axis.legend(loc="upper left", bbox_to_anchor=(1.01, 1.02), frameon=False, fontsize=8, borderaxespad=0)
 
 

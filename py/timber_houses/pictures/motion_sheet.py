@@ -73,7 +73,6 @@ def draw_accelerations(axes, motion):
 
 
 def draw_curves(axis, time, values, label):
-    """Three components in one diagram."""
     for key, column, name, dashes in reversed(ROWS):
         axis.plot(time, values[:, column], color=DIRECTIONS[key], ls=dashes, lw=0.9, label=name)
     axis.set_ylabel(label, fontsize=8)

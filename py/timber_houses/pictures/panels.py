@@ -59,7 +59,6 @@ class Panel:
 
 
 def panels(frames, frame):
-    """Panels of all walls in a frame."""
     joints, broken, bays = frames.joints, frames.joint_states(frame) != "whole", {}
     for halves in wall_sheets(joints):
         k = next(k for k in halves if joints.kind[k] == WALL_COLUMN)

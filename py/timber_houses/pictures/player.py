@@ -71,7 +71,6 @@ def plain(text):
 
 
 def packed(source, run):
-    """Text of a run for the page."""
     if not len(run.time):
         raise RunError(f"{source}: it has no frames")
     try:
@@ -167,7 +166,6 @@ def events(run):
 
 
 def shaking(run):
-    """Events of the ground motion."""
     if run.motion and run.motion.acceleration.any():
         yield Event(onset(run.motion), ShakingBegins())
         if run.summary and getattr(run.summary, "missed_shaking", None) is None:

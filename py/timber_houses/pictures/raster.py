@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Orthographic pictures of convex bodies with hidden surfaces removed; bodies may overlap."""
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -21,7 +22,7 @@ SKY = np.array([0.76, 0.85, 0.93], np.float32)
 class Window:
     """Part of a picture plane. view: a View; box (left, right, bottom, top) [m]; density: pixels per metre."""
 
-    view: object
+    view: Any
     box: tuple
     density: float
 

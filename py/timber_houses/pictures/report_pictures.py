@@ -43,7 +43,6 @@ def plans(frames, failures=()):
 
 
 def draw_plan(axis, frames, storey):
-    """Plan of a storey, north up."""
     e = frames.elements
     for k, kind in enumerate(e.kind):
         if e.storey[k] != storey or kind not in ("column", "brace"):

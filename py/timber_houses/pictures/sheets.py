@@ -36,7 +36,7 @@ GAP, FOOT, CAPTION = 0.12, 0.76, 0.36
 """Gap between panels, height of the legend, height of a panel's caption. [inch]"""
 PANEL_MARK = 5
 """Size of the marks of joints in a panel. [pt]"""
-CAPTION_SIZE, TWO_LINES_SIZE, SMALLEST_CAPTION = 9, 7.5, 5.5
+CAPTION_SIZE, TWO_LINES_SIZE, SMALLEST_CAPTION = 9.0, 7.5, 5.5
 """Font sizes of captions: the usual one, the largest with two lines, the smallest. [pt]"""
 NARROWEST = 0.6
 """Smallest width of a sheet as a part of its format's: titles need it. [-]"""
@@ -57,7 +57,6 @@ class Layout:
 
     @property
     def height(self):
-        """Of the sheet. [inch]"""
         return self.head + -(-self.count // self.columns) * (CAPTION + self.panel[1] + GAP) + FOOT
 
     def corners(self):

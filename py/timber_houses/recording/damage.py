@@ -188,8 +188,8 @@ class DamageSurvey:
         """Whether snow touches the ground, or has no corner above the rectangle around its structure's roofs."""
         e = self.elements
         of_roofs = [k for k, kind in enumerate(e.kind) if kind == "roof" and e.group[k] == e.group[snow]]
-        slab, *roofs = (placed(e.vertices[k], state.position[k], state.orientation[k]) for k in (snow, *of_roofs))
-        roofs = np.concatenate(roofs)[:, :2]
+        slab, *others = (placed(e.vertices[k], state.position[k], state.orientation[k]) for k in (snow, *of_roofs))
+        roofs = np.concatenate(others)[:, :2]
         outside = (slab[:, :2].max(0) < roofs.min(0)) | (slab[:, :2].min(0) > roofs.max(0))
         return bool(outside.any() or slab[:, 2].min() < TOUCH)
 

@@ -122,7 +122,6 @@ class EventLog:
         return sorted(self.events, key=lambda event: event.time_s)
 
     def encoded(self):
-        """The same for JSON."""
         return encode(self.sorted())
 
     def add(self, time, facts):

@@ -36,7 +36,6 @@ class Storeys(Series):
 
     @property
     def count(self):
-        """Number of storeys."""
         return sum(name.startswith("shear_ns") for name in self.columns)
 
     def until(self, time):

@@ -39,7 +39,6 @@ class Series(namedtuple("Table", "columns rows")):
         return cls(header, rows)
 
     def text(self):
-        """Content of the CSV file."""
         return csv_text(self.columns, self.rows.tolist())
 
     def write(self, path):

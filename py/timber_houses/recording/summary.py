@@ -159,8 +159,8 @@ class Summary:
     @property
     def joints_and_sheets(self):
         """((broken, all) of the joints, (broken, all) of the wall sheets); (0, 0) in a house without walls."""
-        counts = self.broken, self.joints
-        return tuple(count.total for count in counts), tuple(count.wall_sheets or 0 for count in counts)
+        broken, joints = self.broken, self.joints
+        return (broken.total, joints.total), (broken.wall_sheets or 0, joints.wall_sheets or 0)
 
 
 def _largest(drifts):

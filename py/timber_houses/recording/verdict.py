@@ -65,7 +65,6 @@ class Structure:
 
 
 def _judge(facts):
-    """One of STATES."""
     if facts.collapsed:
         return COLLAPSED
     drift = max(facts.peak_drift, facts.column_drift)

@@ -78,7 +78,6 @@ def of_arrays(arrays):
 
 
 def of_values(values):
-    """Of anything that JSON can write."""
     return sha256(json.dumps(values, sort_keys=True).encode()).hexdigest()[:16]
 
 

@@ -20,12 +20,12 @@ def modes_now(levels):
     modes = []
     for mode in natural_modes():
         share = {axis: round(float(mode.mass[AXES[axis]] / mass), 4) for axis in DIRECTIONS}
-        shape = np.array([level.displacement(mode.shape[:, :3]) for level in levels])
-        largest = max(shape[:, :2].flat, key=abs, default=1.0)
+        moved = np.array([level.displacement(mode.shape[:, :3]) for level in levels])
+        largest = max(moved[:, :2].flat, key=abs, default=1.0)
         if abs(largest) < ROUNDING * abs(mode.shape[:, :3]).max():  # of another structure
             continue
         shape = {f"storey{k}": {axis: round(float(row[AXES[axis]] / largest), 4) for axis in DIRECTIONS}
-                 for k, row in enumerate(shape, 1)}
+                 for k, row in enumerate(moved, 1)}
         period = round(mode.period, 4) if mode.omega2 > 0 else None
         modes.append(Mode(period_s=period, direction=max(share, key=share.get), mass_share=share, shape=shape))
     return ModesAt(time_s=round(O.time, 6), modes=modes)

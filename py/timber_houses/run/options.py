@@ -103,7 +103,6 @@ class RunOptions(MotionRequest):
 
     @property
     def folder(self):
-        """Folder of the results."""
         return self.out or Path("results") / self.title
 
     @property

@@ -29,11 +29,12 @@ class Status:
 
     def numbers(self):
         """'drift 1/245, 3/382 joints broken'"""
-        joints = find_engine(yw.JointEngine).joints
         described = self.log.survey.joints
-        broken = np.array([joint.isBroken for joint in joints[:len(described.damaged)]], bool) & ~described.damaged
+        present = find_engine(yw.JointEngine).joints[:len(described.damaged)]
+        broken = np.array([joint.isBroken for joint in present], bool) & ~described.damaged
         peak = max(find_engine(yw.HouseMonitor).peak, default=0.0)
-        return f"drift {english.ratio(peak)}, {english.broken_of(*count_apart(described, broken), of='/')}"
+        joints, sheets = count_apart(described, broken)
+        return f"drift {english.ratio(peak)}, {english.broken_of(joints, sheets, of='/')}"
 
 
 class Bar:

@@ -95,7 +95,6 @@ class Run(Stoppable):
     # --- start --------------------------------------------------------------------------------------------------------
 
     def _start(self):
-        """Build the scene."""
         self._build()
         if self.only_export:
             return

@@ -139,7 +139,6 @@ class TownRun(Stoppable):
             return written + (all_pictures.write(folder) if self.options.views else [])
 
     def table(self):
-        """Text of houses.csv."""
         rows = []
         for lot, run in self.lots:
             summary, scenario = run.summary, run.scenario

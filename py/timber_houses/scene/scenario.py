@@ -132,7 +132,6 @@ def add_elements(model):
 
 
 def make_material(name, spec, model):
-    """Material of a house description."""
     friction = own_coefficient(name, spec["law"], model.friction)
     if spec["law"] == "snow":
         return bodies.snow(spec["density"], spec["stiffness_per_kg"], friction, label=name)

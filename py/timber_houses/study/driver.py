@@ -205,7 +205,6 @@ def last_error(text, status):
 
 
 def _end(path):
-    """The last text of a log."""
     with record(path, limit=math.inf) as file:
         file.seek(max(0, os.fstat(file.fileno()).st_size - END_OF_LOG))
         return file.read(END_OF_LOG).decode(errors="replace")

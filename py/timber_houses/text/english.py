@@ -70,7 +70,6 @@ def weight(summary):
 
 
 def its_weight(has_snow):
-    """'its own weight and snow'."""
     return "its own weight" + " and snow" * has_snow
 
 
@@ -268,7 +267,6 @@ def storey_name(key):
 
 
 def counted(number, noun):
-    """'1 run', '3 runs'."""
     return f"{number} {noun}{'s' * (number != 1)}"
 
 

@@ -54,7 +54,6 @@ def flag(name, value):
 
 
 def text(name, value):
-    """A string."""
     return instance(name, value, str, "a string")
 
 

@@ -27,7 +27,7 @@ def guard():
                                            getattr(owner, name)))
     classes = [cls for cls in vars(yw).values() if isinstance(cls, type) and issubclass(cls, BUILT_FROM_LISTS)]
     for cls in classes:
-        cls.__init__ = _checked(cls.__name__, cls.__init__)
+        setattr(cls, "__init__", _checked(cls.__name__, getattr(cls, "__init__")))
     for name, owner, methods in FILLED:
         for method in filter(lambda method: hasattr(owner, method), methods):
             setattr(owner, method, _checked(f"O.{name}.{method}", getattr(owner, method), alone=True))
@@ -47,8 +47,6 @@ def require_objects(name, value):
 
 
 def _without_none(name, part):
-    """Property whose list is checked."""
-
     def set_list(owner, value):
         require_objects(name, value)
         part.fset(owner, value)

@@ -86,7 +86,6 @@ def material_name(material, materials):
 
 
 def describe_element(body, materials):
-    """Dictionary of a body."""
     vertices = [list(body.state.pos + body.state.ori * v) for v in body.shape.vertices]
     return {"id": body.id, "name": body.shape.name, "kind": body.shape.kind, "vertices": vertices,
             "faces": body.shape.faces(), "density": float(f"{body.state.mass / body.shape.massProperties()[0]:.12g}"),

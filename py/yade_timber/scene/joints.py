@@ -149,13 +149,11 @@ def make_joint(id1, id2, springs):
 
 
 def _slip(springs):
-    """Attributes of the law slip."""
     return {"frictionShare": springs.friction_share, "softeningStretch": springs.softening_stretch,
             "ultimateStretch": springs.ultimate_stretch, "envelope": [Vector2(*point) for point in springs.envelope]}
 
 
 def _wall(springs):
-    """Attributes of the law wall."""
     cycles = springs.cycles
     return {"envelope": [Vector2(*point) for point in springs.envelope], "frictionForce": cycles.friction_force,
             "pinchedStiffness": cycles.pinched_stiffness, "reloadTarget": cycles.reload_target,

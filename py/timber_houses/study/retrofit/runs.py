@@ -47,7 +47,6 @@ class Ranking:
 
     @property
     def tests(self):
-        """Names of the motions of the test."""
         selection = ([0] + [done for done, _ in self.plan])[-2]
         return [name for name, _ in self.motions[selection:]]
 
