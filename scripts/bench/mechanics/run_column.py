@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Run the scenes in one program and write its column, docs/mechanics/PROGRAM.csv.
+
+    yade -n -x scripts/bench/mechanics/run_column.py timber [--dt S ...] [--rows KEY ...] [--out FOLDER]
+    python3 scripts/bench/mechanics/run_column.py jolt
+
+Programs in YADE: timber, polyhedra. Others: dart (python3-dartpy); jolt, rapier, cannon, mujoco, bullet (`npm ci` in
+programs/npm).
+"""
+import argparse
+import importlib
+import sys
+from pathlib import Path
+
+HERE = Path(sys.argv[0]).resolve().parent  # YADE runs a script without setting __file__
+sys.path.insert(0, str(HERE.parent))
+
+from mechanics.program import column, write_column
+
+
+def main():
+    options = argparse.ArgumentParser(description=__doc__)
+    options.add_argument("program")
+    options.add_argument("--dt", type=float, nargs="+", help="time steps [s]")
+    options.add_argument("--rows", nargs="+", help="rows by their keys (default: all)")
+    options.add_argument("--out", type=Path, default=HERE.parents[2] / "docs/mechanics", help="folder of the CSV file")
+    given = options.parse_args()
+    program = importlib.import_module(f"mechanics.programs.{given.program}").program()
+    given.out.mkdir(parents=True, exist_ok=True)
+    write_column(given.out / f"{given.program}.csv", column(program, given.dt, given.rows))
+
+
+main()
