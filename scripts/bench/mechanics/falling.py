@@ -30,8 +30,8 @@ def fallen(run):
     return float(-run.position["cube"][-1, 2])
 
 
-add(key="free_fall", title="free fall: way in 1 s", unit="m", scenes=fall, measure=fallen, expected=constant(G / 2),
-    bound=0.005, source="g t² / 2", fault=lambda scene: replace(scene, gravity=9.7))
+add(key="free_fall", title="free fall, 1 s", unit="m", scenes=fall, measure=fallen, expected=constant(G / 2),
+    bound=EXACT, relative=True, source="g t² / 2", fault=lambda scene: replace(scene, gravity=9.6))
 
 TUMBLER = Body("box", (0, 0, 0), (0.1, 0.3, 0.6), mass=10.0, spin=(3.0, 4.0, 5.0))
 """Spins near its intermediate axis, about which rotation is unstable."""
@@ -64,9 +64,9 @@ def braked(scene):
     return replace(scene, bodies=(replace(TUMBLER, spin=tuple(0.98 * x for x in TUMBLER.spin)),))
 
 
-add(key="tumbling_energy", title="tumbling box: energy kept in 10 s", unit="-", scenes=tumble, measure=spin_energy,
+add(key="tumbling_energy", title="tumbling box: energy", unit="-", scenes=tumble, measure=spin_energy,
     expected=constant(1.0), bound=EXACT, source="free rotation conserves energy", fault=braked)
-add(key="tumbling_momentum", title="the same: change of the angular momentum", unit="-", scenes=tumble,
+add(key="tumbling_momentum", title="tumbling box: momentum change", unit="-", scenes=tumble,
     measure=momentum_change, expected=constant(0.0), bound=EXACT, source="free rotation conserves angular momentum",
     fault=braked)
 
@@ -122,11 +122,11 @@ def tilted_cubes(scene):
     return replace(scene, bodies=(scene.bodies[0], *(replace(body, orientation=turn) for body in scene.bodies[1:])))
 
 
-add(key="drop_half", title="flat drop, restitution 0.5: mean rebound over height", unit="-", scenes=drop_half,
+add(key="drop_half", title="flat drop, e 0.5: rebound", unit="-", scenes=drop_half,
     measure=mean_rebound, expected=constant(0.25), bound=0.0125, source="e²", fault=less_bouncy)
-add(key="drop_elastic", title="flat drop, restitution 1: highest rebound over height", unit="-", scenes=drop_elastic,
+add(key="drop_elastic", title="flat drop, e 1: highest rebound", unit="-", scenes=drop_elastic,
     measure=highest_rebound, expected=constant(1.0), bound=0.05, source="e²", fault=less_bouncy)
-add(key="drop_spin", title="flat drop, restitution 0.5: spin after the impact, mean", unit="rad/s", scenes=drop_half,
+add(key="drop_spin", title="flat drop, e 0.5: spin", unit="rad/s", scenes=drop_half,
     measure=mean_spin, expected=constant(0.0), bound=0.1, source="symmetry", fault=tilted_cubes)
 
 SIZE = 0.5
@@ -157,8 +157,8 @@ def collision_energy(run):
     return float(energy / 20.0) if run.velocity["first"][-1, 0] < 0 else 0.0
 
 
-for key, title, scenes in (("collision_flush", "two equal cubes meet flush, restitution 1: energy kept", collide_flush),
-                           ("collision_shifted", "the same, shifted by 1e-4 of the edge", collide_shifted)):
+for key, title, scenes in (("collision_flush", "flush cubes collide, e 1: energy", collide_flush),
+                           ("collision_shifted", "shifted by 1e-4: energy", collide_shifted)):
     add(key=key, title=title, unit="-", scenes=scenes, measure=collision_energy, expected=constant(1.0), bound=0.05,
         source="e = 1", fault=less_bouncy)
 
@@ -178,6 +178,6 @@ def inertia_ratio(run):
     return float(TORQUE * run.times[-1] / spin / box_inertia(1.0, CUBE)[2]) if spin else np.inf
 
 
-add(key="hull_inertia", title="cube as a hull of corners: inertia over exact", unit="-", scenes=twist,
+add(key="hull_inertia", title="hull: inertia over exact", unit="-", scenes=twist,
     measure=inertia_ratio, expected=constant(1.0), bound=EXACT, source="m a² / 6",
     fault=lambda scene: replace(scene, bodies=(replace(scene.bodies[0], mass=1.02),)))

@@ -37,8 +37,8 @@ def sliding_way(run):
     return float(np.linalg.norm(run.position["block"][-1, :2]) / (SPEED**2 / (2 * MU * G)))
 
 
-for key, title, scenes in (("slide_along", "slide from 5 m/s along an axis: way over exact", slide_along),
-                           ("slide_45", "the same at 45 degrees to the axes", slide_across)):
+for key, title, scenes in (("slide_along", "slide along an axis: way", slide_along),
+                           ("slide_45", "slide at 45°: way", slide_across)):
     add(key=key, title=title, unit="-", scenes=scenes, measure=sliding_way, expected=constant(1.0), bound=EXACT,
         source="v² / (2 mu g)", fault=rougher)
 
@@ -81,10 +81,10 @@ def slope_way(degrees):
     return G * (math.sin(angle) - 0.5 * math.cos(angle)) / 2 * (11**2 - 1)
 
 
-add(key="slope_26", title="slope of 26 degrees, mu 0.5: way in 10 s", unit="mm", scenes=slope_26, measure=creep,
+add(key="slope_26", title="slope 26°, mu 0.5: way", unit="mm", scenes=slope_26, measure=creep,
     expected=constant(0.0), bound=STANDS, source="Coulomb: tan 26° < mu",
     fault=lambda scene: replace(scene, friction=0.48))
-add(key="slope_27", title="slope of 27 degrees, mu 0.5: way from 1 to 11 s", unit="m", scenes=slope_27,
+add(key="slope_27", title="slope 27°, mu 0.5: way", unit="m", scenes=slope_27,
     measure=way_down, expected=constant(slope_way(27)), bound=0.02, relative=True,
     source="g (sin 27° - mu cos 27°) (11² - 1) s² / 2", fault=lambda scene: replace(scene, friction=0.498))
 
@@ -104,7 +104,7 @@ def moved(run):
     return float(1e3 * np.linalg.norm(places - places[0], axis=1).max())
 
 
-add(key="neighbours", title="block at rest on 20 degrees while another one slides: moves", unit="mm", scenes=neighbours,
+add(key="neighbours", title="rest beside a sliding block: movement", unit="mm", scenes=neighbours,
     measure=moved, expected=constant(0.0), bound=STANDS, source="Coulomb",
     fault=lambda scene: replace(scene, friction=0.36))
 
@@ -121,7 +121,7 @@ def kept_speed(run):
     return float(run.velocity["box"][-1, 0] / 3.0)
 
 
-add(key="tiles", title="frictionless box over flush tiles: velocity kept", unit="-", scenes=tiles, measure=kept_speed,
+add(key="tiles", title="flush tiles: velocity kept", unit="-", scenes=tiles, measure=kept_speed,
     expected=constant(1.0), bound=EXACT, source="no force along a flush plane",
     fault=lambda scene: replace(scene, friction=0.002))
 
@@ -137,7 +137,7 @@ def post_sunk(run):
     return float(1e3 * (0.5 - run.position["post"][-1, 2]))
 
 
-add(key="seam", title="post on the seam of two slabs, 2 s: sunk", unit="mm", scenes=seam, measure=post_sunk,
+add(key="seam", title="post on a seam: sunk", unit="mm", scenes=seam, measure=post_sunk,
     expected=constant(0.0), bound=STANDS, source="equilibrium",
     fault=lambda scene: replace(scene, bodies=tuple(
         replace(body, position=(1.06 * body.position[0], 0, body.position[2])) for body in scene.bodies)))
@@ -188,9 +188,9 @@ def newmark_slip(share, step=1e-6):
     return 1e3 * slip
 
 
-add(key="shaken_weakly", title="block on a table, 0.15 g at 2 Hz, mu 0.2: largest slip", unit="mm",
+add(key="shaken_weakly", title="shaken table, 0.15 g: slip", unit="mm",
     scenes=shaken_weakly, measure=largest_slip, expected=constant(0.0), bound=STANDS, source="0.15 < mu",
     fault=lambda scene: replace(scene, friction=0.12))
-add(key="shaken_strongly", title="the same, 0.5 g: way after 10 periods", unit="mm", scenes=shaken_strongly,
+add(key="shaken_strongly", title="shaken table, 0.5 g: slip", unit="mm", scenes=shaken_strongly,
     measure=last_slip, expected=lambda radius: newmark_slip(0.5), bound=0.05, relative=True,
     source="Newmark's sliding block, 1965", fault=lambda scene: replace(scene, friction=0.25))

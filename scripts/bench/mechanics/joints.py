@@ -32,7 +32,7 @@ def softer(scene):
     return replace(scene, joints=tuple(replace(joint, stiffness=1e7) for joint in scene.joints))
 
 
-add(key="beam", title="beam of ten welds, 2 m, 20 kg: droop", unit="mm", scenes=beam, measure=droop,
+add(key="beam", title="beam of welds: droop", unit="mm", scenes=beam, measure=droop,
     expected=constant(0.0), bound=5.0, source="rigid beam", needs=frozenset({"weld"}), fault=softer)
 
 # --- spring and mass --------------------------------------------------------------------------------------------------
@@ -52,7 +52,7 @@ def last_amplitude(run):
     return float(abs(run.position["mass"][run.times > run.times[-1] - 1.0, 0]).max() / AMPLITUDE)
 
 
-add(key="spring", title="mass on a spring: amplitude kept in 30 periods", unit="-", scenes=oscillator,
+add(key="spring", title="spring and mass: amplitude", unit="-", scenes=oscillator,
     measure=last_amplitude, expected=constant(1.0), bound=0.02, source="no damping", needs=frozenset({"spring"}),
     fault=lambda scene: replace(scene, joints=(replace(scene.joints[0], stiffness=900.0),)))
 
@@ -79,7 +79,7 @@ def stronger(scene):
     return replace(scene, joints=(replace(joint, strength=1.1 * joint.strength),))
 
 
-add(key="pulled", title="joint of 1000 N pulled slowly: force at its break over strength", unit="-", scenes=pulled,
+add(key="pulled", title="slow pull: break over strength", unit="-", scenes=pulled,
     measure=break_force, expected=constant(1.0), bound=EXACT, source="statics", needs=frozenset({"breaks"}),
     fault=stronger)
 
@@ -108,7 +108,7 @@ def largest_share(radius):
     return STRENGTH**2 / (2 * STIFF) / (HAMMER * SPEED**2)
 
 
-add(key="struck", title="stiff joint of 1000 N struck with 100 N s: share that it takes", unit="-", scenes=struck,
+add(key="struck", title="struck stiff joint: impulse share", unit="-", scenes=struck,
     measure=taken_impulse, expected=largest_share, bound=EXACT, source="energy to break S² / 2k",
     needs=frozenset({"breaks"}),
     fault=lambda scene: replace(scene, joints=(replace(scene.joints[0], strength=1e6),)))

@@ -21,9 +21,9 @@ def support_over_weight(run):
     return float(np.mean(run.support[run.times > 1.5]) / (20.0 * G))
 
 
-add(key="rest", title="block at rest: reported contact force over weight", unit="-", scenes=rest,
+add(key="rest", title="rest: contact force over weight", unit="-", scenes=rest,
     measure=support_over_weight, expected=constant(1.0), bound=EXACT, source="equilibrium",
-    needs=frozenset({"forces"}), fault=lambda scene: replace(scene, gravity=9.7))
+    needs=frozenset({"forces"}), fault=lambda scene: replace(scene, gravity=9.6))
 
 
 # --- mass ratios ------------------------------------------------------------------------------------------------------
@@ -57,9 +57,9 @@ def falling(scene):
 YIELDS = 4.0
 """1 % of the edge: elastic bodies yield by some millimetres under 10 t. [mm]"""
 
-add(key="light_below", title="10 t on 1 kg, 2 s: largest movement of the upper cube", unit="mm", scenes=light_below,
+add(key="light_below", title="10 t on 1 kg: movement", unit="mm", scenes=light_below,
     measure=sunk, expected=constant(0.0), bound=YIELDS, source="equilibrium", fault=falling)
-add(key="light_above", title="1 kg on 10 t: the same", unit="mm", scenes=light_above, measure=sunk,
+add(key="light_above", title="1 kg on 10 t: movement", unit="mm", scenes=light_above, measure=sunk,
     expected=constant(0.0), bound=YIELDS, source="equilibrium", fault=falling)
 
 
@@ -83,9 +83,9 @@ def lean(scene):
     return replace(scene, bodies=(*others, replace(top, position=(0.21, 0, top.position[2]))))
 
 
-add(key="heavy_above", title="ten cubes, 1 kg below to 512 kg on top, 5 s: largest movement of the top", unit="mm",
+add(key="heavy_above", title="1 to 512 kg, heaviest above: movement", unit="mm",
     scenes=heavy_above, measure=sunk, expected=constant(0.0), bound=10.0, source="equilibrium", fault=lean)
-add(key="heavy_below", title="ten cubes, 512 kg below to 1 kg on top: the same", unit="mm", scenes=heavy_below,
+add(key="heavy_below", title="heaviest below: movement", unit="mm", scenes=heavy_below,
     measure=sunk, expected=constant(0.0), bound=10.0, source="equilibrium", fault=lean)
 
 
@@ -104,7 +104,7 @@ def leaning_columns(scene):
     return replace(scene, bodies=tuple(bodies))
 
 
-add(key="roof", title="roof of 2 t on four free columns, 5 s: largest movement", unit="mm", scenes=roof, measure=sunk,
+add(key="roof", title="roof of 2 t on columns: movement", unit="mm", scenes=roof, measure=sunk,
     expected=constant(0.0), bound=10.0, source="equilibrium", fault=leaning_columns)
 
 
@@ -139,7 +139,7 @@ def pushed(scene):
     return replace(scene, bodies=tuple(bodies))
 
 
-add(key="order", title="struck pyramid, bodies inserted in reverse: difference after 1 s", unit="mm",
+add(key="order", title="order reversed: difference", unit="mm",
     scenes=both_orders, measure=difference, expected=constant(0.0), bound=STANDS, source="the same scene", fault=pushed)
-add(key="removed", title="the same after three bodies were added and removed", unit="mm", scenes=with_removed,
+add(key="removed", title="bodies removed before: difference", unit="mm", scenes=with_removed,
     measure=difference, expected=constant(0.0), bound=STANDS, source="the same scene", fault=pushed)

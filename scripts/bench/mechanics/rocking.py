@@ -145,17 +145,17 @@ def wider(scene):
     return replace(scene, bodies=(floor, replace(block, extents=(1.1 * B, B, H))))
 
 
-add(key="rocking_time", title="column from half its critical tilt: time to upright", unit="s", scenes=rock,
+add(key="rocking_time", title="rocking column: time to upright", unit="s", scenes=rock,
     measure=time_to_upright,
     expected=lambda radius: swing_time(0, START * critical(radius), START * critical(radius), radius), bound=EXACT,
     relative=True, source="quadrature of the rolling block", fault=farther)
-add(key="rocking_energy", title="the same: energy kept at the first impact", unit="-", scenes=rock,
+add(key="rocking_energy", title="rocking: energy after impact", unit="-", scenes=rock,
     measure=lambda run: energy_after_impact(run, run.scene.radius), expected=lambda radius: impact_ratio(radius) ** 2,
     bound=EXACT, source="Housner 1963", fault=farther)
-add(key="rocking_state", title="the same: tilt in the fourth second over exact", unit="-", scenes=rock,
+add(key="rocking_state", title="rocking: tilt in 4th second", unit="-", scenes=rock,
     measure=lambda run: late_ratio(run, run.scene.radius), expected=constant(1.0), bound=0.1,
     source="Housner 1963, impact by impact", fault=farther)
-add(key="toppling", title="column from 1.1 of its critical tilt: passes 1 rad after", unit="s", scenes=topple,
+add(key="toppling", title="column at 1.1 critical: fall time", unit="s", scenes=topple,
     measure=topple_time, expected=lambda radius: swing_time(STEEP * critical(radius), 1.0, STEEP * critical(radius),
                                                             radius),
     bound=EXACT, relative=True, source="quadrature of the rolling block", fault=wider)
@@ -197,7 +197,7 @@ def theory_of_wave():
     return float(times[BLOCKS.number - 2] - times[3])
 
 
-add(key="block_row", title="wave along a row of hinged blocks: time", unit="s", scenes=block_row, measure=wave_time,
+add(key="block_row", title="row of hinged blocks: wave time", unit="s", scenes=block_row, measure=wave_time,
     expected=lambda radius: theory_of_wave(), bound=0.05, relative=True,
     source="van Leeuwen, Am. J. Phys. 78 (2010) 721: rigid, inelastic", needs=frozenset({"hinge"}),
     fault=lambda scene: replace(scene, gravity=8.5))
@@ -261,9 +261,9 @@ def damped_start(scene):
     return replace(scene, bodies=other.bodies)
 
 
-add(key="pendulum_period", title="pendulum of 2 m from 30 degrees: period", unit="s", scenes=wide_swing, measure=period,
+add(key="pendulum_period", title="pendulum 30°: period", unit="s", scenes=wide_swing, measure=period,
     expected=lambda radius: exact_period(), bound=EXACT, relative=True, source="4 (l/g)^½ K(sin 15°)",
     needs=frozenset({"ball"}), fault=lighter)
-add(key="pendulum_amplitude", title="pendulum from 5 degrees: amplitude kept in 28 s", unit="-", scenes=small_swing,
+add(key="pendulum_amplitude", title="pendulum 5°: amplitude", unit="-", scenes=small_swing,
     measure=kept_amplitude, expected=constant(1.0), bound=0.02, source="no damping", needs=frozenset({"ball"}),
     fault=damped_start)

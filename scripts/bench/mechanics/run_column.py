@@ -4,8 +4,8 @@
     yade -n -x scripts/bench/mechanics/run_column.py timber [--dt S ...] [--rows KEY ...] [--out FOLDER]
     python3 scripts/bench/mechanics/run_column.py jolt
 
-Programs in YADE: timber, polyhedra. Others: dart (python3-dartpy); jolt, rapier, cannon, mujoco, bullet (`npm ci` in
-programs/npm).
+Programs in YADE: timber, polyhedra. Others: dart (python3-dartpy); jolt, rapier, cannon, bullet, mujoco (`npm ci` in
+programs/npm), and jolt_safe, rapier_safe, bullet_safe, mujoco_safe with other settings.
 """
 import argparse
 import importlib
@@ -17,6 +17,15 @@ sys.path.insert(0, str(HERE.parent))
 
 from mechanics.program import column, write_column
 
+IN_PYTHON = ("timber", "polyhedra", "dart")
+
+
+def find(name):
+    """A program by its name: a module with `program`, or a function of npm_programs."""
+    if name in IN_PYTHON:
+        return importlib.import_module(f"mechanics.programs.{name}").program()
+    return getattr(importlib.import_module("mechanics.programs.npm_programs"), name)()
+
 
 def main():
     options = argparse.ArgumentParser(description=__doc__)
@@ -25,7 +34,7 @@ def main():
     options.add_argument("--rows", nargs="+", help="rows by their keys (default: all)")
     options.add_argument("--out", type=Path, default=HERE.parents[2] / "docs/mechanics", help="folder of the CSV file")
     given = options.parse_args()
-    program = importlib.import_module(f"mechanics.programs.{given.program}").program()
+    program = find(given.program)
     given.out.mkdir(parents=True, exist_ok=True)
     write_column(given.out / f"{given.program}.csv", column(program, given.dt, given.rows))
 

@@ -36,13 +36,13 @@ def standing_share(run):
     share = 0.5
     for n, value in enumerate(SHARES):
         top = run.position[f"block{n}{NUMBER - 1}"]
-        if not abs(top[-1, 2] - top[0, 2]) < 0.01:
+        if not abs(top[-1, 2] - top[0, 2]) < THICKNESS / 2:
             break
         share = value
     return share
 
 
-add(key="overhang", title="overhanging stack of five: stands up to this share of the limit", unit="-", scenes=overhang,
+add(key="overhang", title="overhanging stack: share of limit", unit="-", scenes=overhang,
     measure=standing_share, expected=constant(1.0), bound=0.05, source="harmonic series, edges of radius r",
     fault=lambda scene: replace(scene, bodies=overhang(0.0, 1.1)[0].bodies))
 
@@ -92,8 +92,8 @@ def fallen(run):
     return float(crown_sunk(run) > 0.1)
 
 
-add(key="arch_stands", title="arch, t/R 0.115 (limit 0.1075), 4 s: crown sunk over the radius", unit="-",
+add(key="arch_stands", title="arch t/R 0.115: crown sunk", unit="-",
     scenes=thick_arch, measure=crown_sunk, expected=constant(0.0), bound=0.002,
     source="Milankovitch: stands above 0.1075", fault=lambda scene: arch(0.1, 4.0))
-add(key="arch_falls", title="arch, t/R 0.1, 4 s: falls (1) or not (0)", unit="-", scenes=thin_arch, measure=fallen,
+add(key="arch_falls", title="arch t/R 0.1: falls (1)", unit="-", scenes=thin_arch, measure=fallen,
     expected=constant(1.0), bound=0.5, source="Milankovitch: falls below 0.1075", fault=lambda scene: arch(0.13, 4.0))

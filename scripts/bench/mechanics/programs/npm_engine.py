@@ -19,14 +19,14 @@ STEPS = (1 / 60, 1 / 240, 1 / 1000)
 class Engine:
     """A process that is started with the first scene, and again after one that it did not survive; or one a scene."""
 
-    def __init__(self, name, one_a_scene):
-        self.name, self.process, self.one_a_scene = name, None, one_a_scene
+    def __init__(self, name, one_a_scene, options):
+        self.name, self.process, self.one_a_scene, self.options = name, None, one_a_scene, options
 
     def ask(self, scene, dt):
         if self.process is None or self.process.poll() is not None:
             self.process = subprocess.Popen(["node", f"{self.name}.mjs"], cwd=FOLDER, stdin=subprocess.PIPE,
                                             stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
-        self.process.stdin.write(json.dumps({"scene": asdict(scene), "dt": dt}) + "\n")
+        self.process.stdin.write(json.dumps({"scene": asdict(scene), "dt": dt, "options": self.options}) + "\n")
         self.process.stdin.flush()
         line = self.process.stdout.readline()
         while line and not line.startswith("{"):  # messages of the engine
@@ -55,7 +55,7 @@ def version(package):
     return json.loads((FOLDER / "node_modules" / package / "package.json").read_text(encoding="utf-8"))["version"]
 
 
-def engine_program(engine, name, package, settings, one_a_scene=False, **options):
+def engine_program(engine, name, package, settings, one_a_scene=False, options=None, **rest):
     """one_a_scene: whether each scene gets a process of its own, where an engine does not give its memory back."""
-    run = Engine(engine, one_a_scene).run
-    return Program(name, f"{package} {version(package)}", settings, run, STEPS, **options)
+    run = Engine(engine, one_a_scene, options or {}).run
+    return Program(name, f"{package} {version(package)}", settings, run, STEPS, **rest)

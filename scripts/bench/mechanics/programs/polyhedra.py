@@ -92,9 +92,9 @@ def drive(scene, ids, time):
 
 def run(scene, dt):
     if scene.joints:
-        raise NotPossible("Polyhedra has no joints")
+        raise NotPossible("no joints")
     if 0 < scene.restitution < 1:
-        raise NotPossible("its contact law has no restitution")
+        raise NotPossible("no restitution below 1")
     ids = place(scene, dt)
     every, count = sampling(scene, dt)
     recorder = Recorder(scene, state_of(scene, ids))

@@ -21,7 +21,7 @@ function shapeOf(body) {
 }
 
 // Friction and restitution of a pair are products.
-function create(world, scene, body) {
+function create(world, scene, body, options) {
   const shape = shapeOf(body), inertia = vec([0, 0, 0]), mass = body.mass ?? 0;
   if (mass) shape.calculateLocalInertia(mass, inertia);
   const info = new A.btRigidBodyConstructionInfo(mass, new A.btDefaultMotionState(transform(body.position, body.orientation)), shape, inertia);
@@ -29,6 +29,7 @@ function create(world, scene, body) {
   made.setFriction(Math.sqrt(scene.friction));
   made.setRestitution(Math.sqrt(scene.restitution));
   if (mass) {
+    if (options.awake) made.setActivationState(4);
     made.setLinearVelocity(vec(body.velocity));
     made.setAngularVelocity(vec(body.spin));
   } else if (body.shaken) {
@@ -59,15 +60,15 @@ function constraint(joint, scene, made) {
   return spring;
 }
 
-function make(scene, dt) {
+function make(scene, dt, options) {
   const configuration = new A.btDefaultCollisionConfiguration(), dispatcher = new A.btCollisionDispatcher(configuration);
   const world = new A.btDiscreteDynamicsWorld(dispatcher, new A.btDbvtBroadphase(), new A.btSequentialImpulseConstraintSolver(), configuration);
   world.setGravity(vec([0, 0, -scene.gravity]));
   for (let k = 0; k < scene.removed; k++) {
-    world.removeRigidBody(create(world, scene, { extents: [0.3, 0.3, 0.3], position: [50 + k, 0, 5], orientation: [1, 0, 0, 0], mass: 1, velocity: [0, 0, 0], spin: [0, 0, 0] }));
+    world.removeRigidBody(create(world, scene, { extents: [0.3, 0.3, 0.3], position: [50 + k, 0, 5], orientation: [1, 0, 0, 0], mass: 1, velocity: [0, 0, 0], spin: [0, 0, 0] }, options));
   }
   const made = {}, constraints = [];
-  for (const body of scene.bodies) made[body.name] = create(world, scene, body);
+  for (const body of scene.bodies) made[body.name] = create(world, scene, body, options);
   for (const joint of scene.joints) {
     const made_ = constraint(joint, scene, made);
     if (joint.strength) made_.setBreakingImpulseThreshold(joint.strength * dt);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 import initialise from 'jolt-physics';
-import { local, middle, named, serve } from './serve.mjs';
+import { middle, named, serve } from './serve.mjs';
 
 const CONVEX_RADIUS = 0.001; // [m]
 const J = await initialise();
@@ -28,11 +28,11 @@ function shapeOf(body) {
   return settings.Create().Get();
 }
 
-function create(bodies, scene, body) {
+function create(bodies, scene, body, options) {
   const moves = body.mass !== null, [w, x, y, z] = body.orientation;
   const type = moves ? J.EMotionType_Dynamic : body.shaken ? J.EMotionType_Kinematic : J.EMotionType_Static;
   const settings = new J.BodyCreationSettings(shapeOf(body), point(body.position), new J.Quat(x, y, z, w), type, moves || body.shaken ? 1 : 0);
-  Object.assign(settings, { mFriction: scene.friction, mRestitution: scene.restitution, mLinearDamping: 0, mAngularDamping: 0 });
+  Object.assign(settings, { mFriction: scene.friction, mRestitution: scene.restitution, mLinearDamping: 0, mAngularDamping: 0, mAllowSleeping: !options.awake });
   if (moves) {
     settings.mOverrideMassProperties = J.EOverrideMassProperties_CalculateInertia;
     settings.mMassPropertiesOverride.mMass = body.mass;
@@ -70,15 +70,15 @@ function constraint(joint, scene, made) {
   return settings.Create(first, second);
 }
 
-function make(scene, dt) {
+function make(scene, dt, options) {
   const jolt = makeWorld(), system = jolt.GetPhysicsSystem(), bodies = system.GetBodyInterface(), made = {};
   system.SetGravity(new J.Vec3(0, 0, -scene.gravity));
   for (let k = 0; k < scene.removed; k++) {
-    const extra = create(bodies, scene, { extents: [0.3, 0.3, 0.3], position: [50 + k, 0, 5], orientation: [1, 0, 0, 0], mass: 1, velocity: [0, 0, 0], spin: [0, 0, 0] });
+    const extra = create(bodies, scene, { extents: [0.3, 0.3, 0.3], position: [50 + k, 0, 5], orientation: [1, 0, 0, 0], mass: 1, velocity: [0, 0, 0], spin: [0, 0, 0] }, options);
     bodies.RemoveBody(extra.GetID());
     bodies.DestroyBody(extra.GetID());
   }
-  for (const body of scene.bodies) made[body.name] = create(bodies, scene, body);
+  for (const body of scene.bodies) made[body.name] = create(bodies, scene, body, options);
   for (const joint of scene.joints) system.AddConstraint(constraint(joint, scene, made));
   const list = (v) => [v.GetX(), v.GetY(), v.GetZ()];
   return {

@@ -19,9 +19,9 @@ function jointXml(joint, scene) {
   return joint.points.map((p) => `<connect body1="${joint.second}" body2="${joint.first}" anchor="${words(local(p, second))}"/>`).join('');
 }
 
-function xml(scene, dt) {
+function xml(scene, dt, options) {
   const springs = scene.joints.filter((joint) => joint.kind === 'spring');
-  return `<mujoco><option timestep="${dt}" gravity="0 0 ${-scene.gravity}"/><size memory="200M"/>
+  return `<mujoco><option ${options.option ?? ''} timestep="${dt}" gravity="0 0 ${-scene.gravity}"/><size memory="200M"/>
     <default><geom friction="${scene.friction} 0.005 0.0001"/></default>
     <asset>${scene.bodies.map((body, i) => (body.corners ? `<mesh name="mesh${i}" vertex="${words(body.corners.flat())}"/>` : '')).join('')}</asset>
     <worldbody>${scene.bodies.map(bodyXml).join('')}</worldbody>
@@ -41,10 +41,10 @@ function addresses(scene) {
   return found;
 }
 
-function make(scene, dt) {
-  if (scene.restitution > 0) notPossible('contacts have no restitution');
-  if (scene.removed) notPossible('bodies of a model are fixed in number');
-  const model = M.MjModel.from_xml_string(xml(scene, dt)), data = new M.MjData(model), at = addresses(scene);
+function make(scene, dt, options) {
+  if (scene.restitution > 0) notPossible('no restitution');
+  if (scene.removed) notPossible('no removal of bodies');
+  const model = M.MjModel.from_xml_string(xml(scene, dt, options)), data = new M.MjData(model), at = addresses(scene);
   for (const body of scene.bodies) {
     const { v } = at[body.name];
     const [w, x, y, z] = body.orientation;

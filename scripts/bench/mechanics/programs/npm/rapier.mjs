@@ -6,9 +6,9 @@ await R.init();
 const vec = (v) => ({ x: v[0], y: v[1], z: v[2] }), list = (v) => [v.x, v.y, v.z];
 const quat = ([w, x, y, z]) => ({ x, y, z, w });
 
-function create(world, scene, body) {
+function create(world, scene, body, options) {
   const kind = body.mass !== null ? R.RigidBodyDesc.dynamic() : body.shaken ? R.RigidBodyDesc.kinematicVelocityBased() : R.RigidBodyDesc.fixed();
-  kind.setTranslation(...body.position).setRotation(quat(body.orientation));
+  kind.setCanSleep(!options.awake).setTranslation(...body.position).setRotation(quat(body.orientation));
   if (body.mass !== null) kind.setLinvel(...body.velocity).setAngvel(vec(body.spin));
   const made = world.createRigidBody(kind);
   const shape = body.extents ? R.ColliderDesc.cuboid(...body.extents.map((x) => x / 2)) : R.ColliderDesc.convexHull(new Float32Array(body.corners.flat()));
@@ -28,13 +28,13 @@ function jointData(joint, scene) {
   return R.JointData.spring(1, joint.stiffness, 0, { x: 0, y: 0, z: 0 }, { x: 0, y: 0, z: 0 });
 }
 
-function make(scene, dt) {
+function make(scene, dt, options) {
   const world = new R.World({ x: 0, y: 0, z: -scene.gravity }), made = {};
   world.timestep = dt;
   for (let k = 0; k < scene.removed; k++) {
-    world.removeRigidBody(create(world, scene, { extents: [0.3, 0.3, 0.3], position: [50 + k, 0, 5], orientation: [1, 0, 0, 0], mass: 1, velocity: [0, 0, 0], spin: [0, 0, 0] }));
+    world.removeRigidBody(create(world, scene, { extents: [0.3, 0.3, 0.3], position: [50 + k, 0, 5], orientation: [1, 0, 0, 0], mass: 1, velocity: [0, 0, 0], spin: [0, 0, 0] }, options));
   }
-  for (const body of scene.bodies) made[body.name] = create(world, scene, body);
+  for (const body of scene.bodies) made[body.name] = create(world, scene, body, options);
   for (const joint of scene.joints) world.createImpulseJoint(jointData(joint, scene), made[joint.first], made[joint.second], true);
   return {
     step: () => world.step(),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Runs scenes that arrive as lines {scene, dt} on the standard input, and answers each with a line: its trajectory or a reason.
+// Runs scenes that arrive as lines {scene, dt, options} on the standard input, and answers each with a line: its trajectory or a reason.
 import { createInterface } from 'node:readline';
 
 export const notPossible = (text) => { throw Object.assign(new Error(text), { notPossible: true }); };
@@ -35,10 +35,10 @@ const shaken = ([acceleration, frequency], time) => {
   return -acceleration / omega ** 2 * Math.sin(omega * time);
 };
 
-// make(scene, dt): { step(), state(name) -> [position, orientation, velocity, spin], move(name, x, velocity), push(name, force),
+// make(scene, dt, options): { step(), state(name) -> [position, orientation, velocity, spin], move(name, x, velocity), push(name, force),
 // twist(name, torque), support(), broken() -> whether the joint has broken, free() }
-function run(make, scene, dt) {
-  const engine = make(scene, dt), every = Math.max(1, Math.round(scene.sample / dt)), count = Math.round(scene.duration / dt);
+function run(make, scene, dt, options) {
+  const engine = make(scene, dt, options), every = Math.max(1, Math.round(scene.sample / dt)), count = Math.round(scene.duration / dt);
   const out = { times: [], support: [], broken: null, rows: Object.fromEntries(scene.bodies.map((b) => [b.name, [[], [], [], []]])) };
   const sample = (time) => {
     out.times.push(time);
@@ -65,9 +65,9 @@ function run(make, scene, dt) {
 
 export async function serve(make) {
   for await (const line of createInterface({ input: process.stdin })) {
-    const { scene, dt } = JSON.parse(line);
+    const { scene, dt, options } = JSON.parse(line);
     let answer;
-    try { answer = run(make, scene, dt); } catch (error) {
+    try { answer = run(make, scene, dt, options); } catch (error) {
       answer = { [error.notPossible ? 'notPossible' : 'failed']: String(error.message ?? error) };
     }
     process.stdout.write(JSON.stringify(answer) + '\n');
