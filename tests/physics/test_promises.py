@@ -19,7 +19,8 @@ G = 9.81
 def block_on_pier():
     """A block that has rested for 5 s on a pier, a fixed body. Returns the ids."""
     O.reset()
-    ids = [O.bodies.append(yt.box((0.5, 0.5, 1), (0, 0, -0.5), fixed=True)), O.bodies.append(yt.box((0.3,) * 3, (0, 0, 0.15)))]
+    pier, block = yt.box((0.5, 0.5, 1), (0, 0, -0.5), fixed=True), yt.box((0.3,) * 3, (0, 0, 0.15))
+    ids = O.bodies.append([pier, block])
     O.dt, O.engines = 5e-4, yt.engines()
     for _ in range(10000):
         O.step()

@@ -178,7 +178,8 @@ def last_slip(run):
 
 @lru_cache
 def newmark_slip(share, step=1e-6):
-    """Way of a sliding block on the table after all periods (Newmark, Geotechnique 15 (1965) 139), by small steps. [mm]"""
+    """Way of a sliding block on the table after all periods, by small steps (Newmark, Geotechnique 15 (1965) 139). [mm]
+    """
     limit, slip, speed = SHAKEN_MU * G, 0.0, 0.0
     drive = share * G * np.sin(2 * math.pi * FREQUENCY * step * (np.arange(round(PERIODS / FREQUENCY / step)) + 0.5))
     for acceleration in drive.tolist():

@@ -3,8 +3,6 @@
 import math
 from dataclasses import replace
 
-import numpy as np
-
 from mechanics.rows import EXACT, add, constant
 from mechanics.scene import Body, Joint, Scene
 

@@ -17,8 +17,8 @@ class NotPossible(Exception):
 
 @dataclass(frozen=True)
 class Program:
-    """run(scene, dt): Trajectory; raises NotPossible. steps: time steps of the column [s]. radius: rounding of edges [m].
-    lacks: {ability that rows may need: what is missing}.
+    """run(scene, dt): Trajectory; raises NotPossible. steps: time steps of the column [s]. radius: rounding of
+    edges [m]. lacks: (ability that rows may need, what is missing).
     """
 
     name: str

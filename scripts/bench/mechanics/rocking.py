@@ -43,8 +43,8 @@ def column(name, share, duration, radius):
     tilt = share * critical(radius)
     across, up = centre(tilt, radius)
     turn = (math.cos(tilt / 2), 0.0, math.sin(tilt / 2), 0.0)
-    bodies = (Body("floor", (0, 0, -0.5), (10, 4, 1)), Body("column", (-across, 0, up), (B, B, H), mass=MASS,
-                                                             orientation=turn))
+    bodies = (Body("floor", (0, 0, -0.5), (10, 4, 1)),
+              Body("column", (-across, 0, up), (B, B, H), mass=MASS, orientation=turn))
     return Scene(name, duration, bodies, friction=1.0, sample=0.002, radius=radius)
 
 

@@ -36,7 +36,8 @@ def main():
     given = options.parse_args()
     program = find(given.program)
     given.out.mkdir(parents=True, exist_ok=True)
-    write_column(given.out / f"{given.program}.csv", column(program, given.dt, given.rows))
+    for row in column(program, given.dt, given.rows):
+        write_column(given.out / f"{given.program}.csv", [row])
 
 
 main()

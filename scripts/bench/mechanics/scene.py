@@ -118,7 +118,9 @@ class Trajectory:
 
 
 class Recorder:
-    """Collects a trajectory in a program that is driven from Python; state(name): position, orientation, velocity, spin."""
+    """Collects a trajectory in a program that is driven from Python. state(name): position, orientation, velocity and
+    spin.
+    """
 
     def __init__(self, scene, state):
         self.scene, self.state, self.times, self.support, self.broken = scene, state, [], [], math.nan

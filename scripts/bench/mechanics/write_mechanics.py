@@ -77,7 +77,8 @@ def cell(program, row):
 
 def compact(heads, rows):
     """A Markdown table without spaces beside its bars."""
-    return "\n".join(["|" + "|".join(heads) + "|", "|-" * len(heads) + "|", *("|" + "|".join(row) + "|" for row in rows)])
+    lines = ["|" + "|".join(row) + "|" for row in (heads, *rows)]
+    return "\n".join([lines[0], "|-" * len(heads) + "|", *lines[1:]])
 
 
 def step_text(dt):
@@ -170,7 +171,7 @@ def draw(found, path):
     axis.set_xticks(range(len(heads)), heads, fontsize=6, rotation=90)
     for name, left, right in zip(found, edges, edges[1:]):
         axis.axvline(right - 0.5, color="white", lw=2)
-        axis.text((left + right - 1) / 2, -1.0, name, ha="center", va="bottom", fontsize=7, rotation=30 if right - left < 2 else 0)
+        axis.text((left + right - 1) / 2, -0.8, name.replace(", ", ",\n"), ha="center", va="bottom", fontsize=6)
     axis.set_xlabel("time step [s]; grey: not possible", fontsize=7)
     bar = figure.colorbar(image, ax=axis, ticks=range(-DECADES, DECADES + 1), shrink=0.5)
     bar.set_ticklabels([f"{10.0**k:g}" for k in range(-DECADES, DECADES + 1)], fontsize=7)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Engines of npm by their names, each with its defaults; names with `_safe` have settings that are closer to mechanics."""
+"""Engines of npm by their names, with their defaults; names with `_safe` have settings closer to mechanics."""
 from mechanics.programs.npm_engine import engine_program
 
 UNBREAKABLE = ("breaks", "no strength of joints")

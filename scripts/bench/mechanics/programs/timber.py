@@ -19,7 +19,9 @@ SHAKING_STEP = 1e-3
 
 
 def damping_ratio(restitution):
-    """Of four points of a flat face: zeta_c = 2 zeta (6/5)^½ for Hertz's law (theory.md, section 5); 1 for restitution 0."""
+    """Of four points of a flat face: zeta_c = 2 zeta (6/5)^½ for Hertz's law (theory.md, section 5).
+    1 for restitution 0.
+    """
     if restitution == 0:
         return 1.0
     low, high = 0.0, 1.0 - 1e-12
@@ -121,5 +123,5 @@ def run(scene, dt):
 
 
 def program():
-    return Program("this package", yt.__version__, f"in YADE {yade.config.version}, defaults, edges rounded by 1 mm", run,
+    return Program("this package", yt.__version__, f"YADE {yade.config.version}, edges rounded by 1 mm", run,
                    (5e-4, 1e-4, 2e-5), RADIUS)
