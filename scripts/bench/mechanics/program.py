@@ -15,6 +15,10 @@ class NotPossible(Exception):
     """The program cannot express the scene; the text says why."""
 
 
+class NotRun(Exception):
+    """The program could express the scene, but this adapter does not."""
+
+
 @dataclass(frozen=True)
 class Program:
     """run(scene, dt): Trajectory; raises NotPossible. steps: time steps of the column [s]. radius: rounding of
@@ -41,6 +45,8 @@ def measured(program, row, dt, runs):
                 runs[scene.name] = program.run(scene, dt)
             except NotPossible as reason:
                 runs[scene.name] = f"not possible: {reason}"
+            except NotRun as reason:
+                runs[scene.name] = f"not run: {reason}"
             except Exception as reason:  # one scene that a program refuses must not end its column
                 runs[scene.name] = f"failed: {' '.join(str(reason).split())[:160]}"
     found = [runs[scene.name] for scene in row.scenes(program.radius)]

@@ -4,7 +4,7 @@
     yade -n -x scripts/bench/mechanics/run_column.py timber [--dt S ...] [--rows KEY ...] [--out FOLDER]
     python3 scripts/bench/mechanics/run_column.py jolt
 
-Programs in YADE: timber, polyhedra. Others: dart (python3-dartpy); jolt, rapier, cannon, bullet, mujoco (`npm ci` in
+Programs in YADE: timber, polyhedra. Others: dart (python3-dartpy), ode (libode-dev); jolt, rapier, cannon, bullet, mujoco (`npm ci` in
 programs/npm), and jolt_safe, rapier_safe, bullet_safe, mujoco_safe with other settings.
 """
 import argparse
@@ -17,7 +17,7 @@ sys.path.insert(0, str(HERE.parent))
 
 from mechanics.program import column, write_column
 
-IN_PYTHON = ("timber", "polyhedra", "dart")
+IN_PYTHON = ("timber", "polyhedra", "dart", "ode")
 
 
 def find(name):

@@ -21,7 +21,7 @@ from mechanics.rows import table
 
 FIRST = "timber"
 """CSV file of the first column."""
-MISS, NOT_POSSIBLE, FAILED, NEVER = "✗", "–", "fails✗", "never"
+MISS, NOT_POSSIBLE, NOT_RUN, FAILED, NEVER = "✗", "–", "?", "fails✗", "never"
 DECADES = 2
 """Of error over bound that the colours show, to both sides of 1."""
 
@@ -45,10 +45,10 @@ def columns(folder):
 
 
 def share(program, row, dt):
-    """Error over bound; NaN where the program cannot express the scene."""
-    value, note = program["cells"].get((row.key, dt), (None, "not possible"))
+    """Error over bound; NaN where the program cannot express the scene, or was not run."""
+    value, note = program["cells"].get((row.key, dt), (None, "not run"))
     if value is None:
-        return math.nan if note.startswith("not possible") else math.inf
+        return math.inf if note.startswith("failed") else math.nan
     return row.error(value, program["radius"])
 
 
@@ -65,9 +65,9 @@ def cell(program, row):
     """Values at the program's steps, with marks for misses."""
     texts = []
     for dt in program["steps"]:
-        error, (value, _) = share(program, row, dt), program["cells"].get((row.key, dt), (None, ""))
+        error, (value, note) = share(program, row, dt), program["cells"].get((row.key, dt), (None, "not run"))
         if math.isnan(error):
-            texts.append(NOT_POSSIBLE)
+            texts.append(NOT_RUN if note.startswith("not run") else NOT_POSSIBLE)
         elif value is None:
             texts.append(FAILED)
         else:
@@ -122,9 +122,8 @@ def safe_table(found):
         other, before = errors_at(program, dt), errors_at(plain, plain["steps"][-1])
         mended = [key for key in other if other[key] <= 1 < before[key]]
         missed = sum(error > 1 for error in other.values())
-        rows.append([program["settings"], ", ".join(mended), f"{missed}of{len(other)}"])
-        rows[-1].insert(0, name.split(",")[0])
-    return compact(["program", "settings", "passes besides", "misses"], rows)
+        rows.append([name, ", ".join(mended), f"{missed}of{len(other)}"])
+    return compact(["setting", "passes besides", "misses"], rows)
 
 
 def misses(program):
@@ -142,13 +141,13 @@ def program_table(found):
 
 
 def not_possible(found):
-    """Reasons, by program."""
+    """Reasons, by program, a line each."""
     lines = []
     for name, program in found.items():
         reasons = sorted({note.removeprefix("not possible: ") for _, note in program["cells"].values()
                           if note.startswith("not possible")})
         if reasons and name in shown(found):
-            lines.append(f"* {name}: {'; '.join(reasons)}.")
+            lines.append(f"* {name}: {', '.join(reasons)}.")
     return "\n".join(lines)
 
 
@@ -172,7 +171,7 @@ def draw(found, path):
     for name, left, right in zip(found, edges, edges[1:]):
         axis.axvline(right - 0.5, color="white", lw=2)
         axis.text((left + right - 1) / 2, -0.8, name.replace(", ", ",\n"), ha="center", va="bottom", fontsize=6)
-    axis.set_xlabel("time step [s]; grey: not possible", fontsize=7)
+    axis.set_xlabel("time step [s]; grey: not possible or not run", fontsize=7)
     bar = figure.colorbar(image, ax=axis, ticks=range(-DECADES, DECADES + 1), shrink=0.5)
     bar.set_ticklabels([f"{10.0**k:g}" for k in range(-DECADES, DECADES + 1)], fontsize=7)
     bar.set_label("error over bound", fontsize=7)

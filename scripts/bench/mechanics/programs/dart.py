@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""DART, from Debian's python3-dartpy. Joints are those of trees, its own form; boxes alone, since it reads hulls from files."""
+"""DART, from Debian's python3-dartpy. Joints are those of trees, its own form; hulls are read from files only."""
 import math
 import subprocess
 
 import dartpy
 import numpy as np
 
-from mechanics.program import NotPossible, Program
+from mechanics.program import NotPossible, NotRun, Program
 from mechanics.scene import Recorder, box_inertia, sampling, shaking_motion
 
 D = dartpy.dynamics
@@ -55,7 +55,7 @@ class Model:
 
     def add(self, body, link):
         if body.corners:
-            raise NotPossible("hulls from files only")
+            raise NotRun("hulls, which it reads from files")
         pose = isometry(body.position, body.orientation)
         if link:
             fixed = self.scene.body(link.first).mass is None  # joints to fixed bodies are joints to the world
