@@ -104,7 +104,7 @@ def moved(run):
     return float(1e3 * np.linalg.norm(places - places[0], axis=1).max())
 
 
-add(key="neighbours", title="rest beside a sliding block: movement", unit="mm", scenes=neighbours,
+add(key="neighbours", title="beside a sliding block: movement", unit="mm", scenes=neighbours,
     measure=moved, expected=constant(0.0), bound=STANDS, source="Coulomb",
     fault=lambda scene: replace(scene, friction=0.36))
 

@@ -83,9 +83,9 @@ def lean(scene):
     return replace(scene, bodies=(*others, replace(top, position=(0.21, 0, top.position[2]))))
 
 
-add(key="heavy_above", title="1 to 512 kg, heaviest above: movement", unit="mm",
+add(key="heavy_above", title="tower, heaviest above: movement", unit="mm",
     scenes=heavy_above, measure=sunk, expected=constant(0.0), bound=10.0, source="equilibrium", fault=lean)
-add(key="heavy_below", title="heaviest below: movement", unit="mm", scenes=heavy_below,
+add(key="heavy_below", title="tower, heaviest below: movement", unit="mm", scenes=heavy_below,
     measure=sunk, expected=constant(0.0), bound=10.0, source="equilibrium", fault=lean)
 
 
@@ -104,7 +104,7 @@ def leaning_columns(scene):
     return replace(scene, bodies=tuple(bodies))
 
 
-add(key="roof", title="roof of 2 t on columns: movement", unit="mm", scenes=roof, measure=sunk,
+add(key="roof", title="roof on columns: movement", unit="mm", scenes=roof, measure=sunk,
     expected=constant(0.0), bound=10.0, source="equilibrium", fault=leaning_columns)
 
 

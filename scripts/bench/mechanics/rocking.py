@@ -145,7 +145,7 @@ def wider(scene):
     return replace(scene, bodies=(floor, replace(block, extents=(1.1 * B, B, H))))
 
 
-add(key="rocking_time", title="rocking column: time to upright", unit="s", scenes=rock,
+add(key="rocking_time", title="rocking: time to upright", unit="s", scenes=rock,
     measure=time_to_upright,
     expected=lambda radius: swing_time(0, START * critical(radius), START * critical(radius), radius), bound=EXACT,
     relative=True, source="quadrature of the rolling block", fault=farther)
@@ -197,7 +197,7 @@ def theory_of_wave():
     return float(times[BLOCKS.number - 2] - times[3])
 
 
-add(key="block_row", title="row of hinged blocks: wave time", unit="s", scenes=block_row, measure=wave_time,
+add(key="block_row", title="hinged blocks: wave time", unit="s", scenes=block_row, measure=wave_time,
     expected=lambda radius: theory_of_wave(), bound=0.05, relative=True,
     source="van Leeuwen, Am. J. Phys. 78 (2010) 721: rigid, inelastic", needs=frozenset({"hinge"}),
     fault=lambda scene: replace(scene, gravity=8.5))

@@ -4,8 +4,8 @@
     yade -n -x scripts/bench/mechanics/run_column.py timber [--dt S ...] [--rows KEY ...] [--out FOLDER]
     python3 scripts/bench/mechanics/run_column.py jolt
 
-Programs in YADE: timber, polyhedra. Others: dart (python3-dartpy), ode (libode-dev); jolt, rapier, cannon, bullet, mujoco (`npm ci` in
-programs/npm), and jolt_safe, rapier_safe, bullet_safe, mujoco_safe with other settings.
+Programs in YADE: timber, polyhedra. Others: dart (python3-dartpy), ode (libode-dev); jolt, rapier, cannon, bullet,
+mujoco (`npm ci` in programs/npm), and jolt_safe, rapier_safe, bullet_safe, mujoco_safe with other settings.
 """
 import argparse
 import importlib

@@ -42,7 +42,7 @@ def standing_share(run):
     return share
 
 
-add(key="overhang", title="overhanging stack: share of limit", unit="-", scenes=overhang,
+add(key="overhang", title="overhang: share of limit", unit="-", scenes=overhang,
     measure=standing_share, expected=constant(1.0), bound=0.05, source="harmonic series, edges of radius r",
     fault=lambda scene: replace(scene, bodies=overhang(0.0, 1.1)[0].bodies))
 

@@ -18,7 +18,7 @@ def rapier(name="Rapier", more="", **options):
 
 
 def cannon():
-    return engine_program("cannon", "cannon-es", "cannon-es", "damping 0, bodies created unrotated",
+    return engine_program("cannon", "cannon-es", "cannon-es", "damping 0, created unrotated",
                           lacks=(UNBREAKABLE,))
 
 
