@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Run the scenes in one program and write its column, docs/mechanics/PROGRAM.csv.
+
+    yade -n -x scripts/bench/mechanics/run_column.py timber [--dt S ...] [--rows KEY ...] [--out FOLDER]
+    python3 scripts/bench/mechanics/run_column.py jolt
+
+Programs in YADE: timber, polyhedra. Others: dart (python3-dartpy), ode (libode-dev); jolt, rapier, cannon, bullet,
+mujoco (`npm ci` in programs/npm), and jolt_safe, rapier_safe, bullet_safe, mujoco_safe with other settings.
+"""
+import argparse
+import importlib
+import sys
+from pathlib import Path
+
+HERE = Path(sys.argv[0]).resolve().parent  # YADE runs a script without setting __file__
+sys.path.insert(0, str(HERE.parent))
+
+from mechanics.program import column, write_column
+
+IN_PYTHON = ("timber", "polyhedra", "dart", "ode")
+
+
+def find(name):
+    """A program by its name: a module with `program`, or a function of npm_programs."""
+    if name in IN_PYTHON:
+        return importlib.import_module(f"mechanics.programs.{name}").program()
+    return getattr(importlib.import_module("mechanics.programs.npm_programs"), name)()
+
+
+def main():
+    options = argparse.ArgumentParser(description=__doc__)
+    options.add_argument("program")
+    options.add_argument("--dt", type=float, nargs="+", help="time steps [s]")
+    options.add_argument("--rows", nargs="+", help="rows by their keys (default: all)")
+    options.add_argument("--out", type=Path, default=HERE.parents[2] / "docs/mechanics", help="folder of the CSV file")
+    given = options.parse_args()
+    program = find(given.program)
+    given.out.mkdir(parents=True, exist_ok=True)
+    for row in column(program, given.dt, given.rows):
+        write_column(given.out / f"{given.program}.csv", [row])
+
+
+main()
