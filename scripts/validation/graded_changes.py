@@ -4,7 +4,7 @@
 
     scripts/validation/graded_changes.py --record PREFIX_OF_JMA_KOBE --start 6 --end 20 [--seeds N]
         [--changes 'default,siding,siding + damping 2 %,...'] [--grades 1,1.25,1.5] [--levels design,mean]
-        [--only-done] [--to DIR]
+        [--only-done] [--runs-alone] [--to DIR]
 
 Houses, tests and motion: graded_houses.py. Each row of the table is a change, or several joined by " + ", a grade and a
 level of the walls. The same command continues runs that were stopped; further changes, grades and seeds add to them.
@@ -227,15 +227,14 @@ def finish_ratio(path):
                for axis in AXES)
 
 
-def row(case, path, motion, window, results):
+def row(case, path, window, results):
     """Of the table; results: of runs that ended well."""
     data, summaries = load_house(path).data, [result.summary for result in results]
     return {"change": case.change, "grade": case.grade, "walls": case.level, "finishes": finish_ratio(path),
             "damping": data["law"]["joint_damping"], "start_s": window[0], "end_s": window[1], "test": TEST[case.grade],
             "runs": len(summaries), "collapsed": sum(s.collapsed for s in summaries),
             "tilted": sum(s.tilt_time_s is not None for s in summaries),
-            **{f"{name}_{axis}": median_drift(summaries, name, axis) for axis in AXES for name in ("centre", "column")},
-            **{f"model_{axis}": model_drift(case, path, axis, motion, data["law"]) for axis in AXES}}
+            **{f"{name}_{axis}": median_drift(summaries, name, axis) for axis in AXES for name in ("centre", "column")}}
 
 
 def median_drift(summaries, name, axis):
@@ -247,12 +246,27 @@ def median_drift(summaries, name, axis):
     return float(np.median(values)) if values else ""
 
 
-def model_drift(case, path, axis, motion, law_options):
+def model_drift(case, path, axis, motion):
     """Of storey 1 in the lumped-mass model; 1 if a storey fails."""
+    law_options = load_house(path).data["law"]
     damped = Storey.stiffness if law_options["damping_stiffness"] == "initial" else Storey.tangent
     storeys, ground = case.storeys(path, axis), getattr(motion, axis)
     peaks, failed = before_failure(response(storeys, ground, motion.dt, law_options["joint_damping"], damped)[1])
     return 1.0 if failed else float(peaks[0])
+
+
+def rows_of(given, runs, files, motion):
+    """Of the table. runs: {case: tasks}; files: {case: house file}"""
+    rows = []
+    for case, each in runs.items():
+        results = [load_run(task.folder) for task in each if task.summary is not None]
+        if each and not results and not given.only_done:
+            print(f"{each[0].folder}: no run has ended well; its run.log says why")
+        if results or not given.runs_alone:
+            rows.append(row(case, files[case], (given.start, given.end), results))
+            if not given.runs_alone:
+                rows[-1] |= {f"model_{axis}": model_drift(case, files[case], axis, motion) for axis in AXES}
+    return rows
 
 
 def cases_of(given):
@@ -281,6 +295,8 @@ def parsed():
     options.add_argument("--grades", default="1,1.25,1.5", help="default %(default)s")
     options.add_argument("--levels", default="design,mean", help="of the walls (default %(default)s)")
     options.add_argument("--only-done", action="store_true", help="table of the runs that are done")
+    options.add_argument("--runs-alone", action="store_true",
+                         help="table without the lumped-mass model and without rows that have no run")
     options.add_argument("--to", type=results_folder, metavar="DIR", help="folder of the table")
     return options.parse_args()
 
@@ -296,12 +312,9 @@ def main():
             for case, path in files.items()}
     if not given.only_done:
         run_missing([task for each in runs.values() for task in each], SCRIPTS, given.jobs)
-    rows = []
-    for case, each in runs.items():
-        results = [load_run(task.folder) for task in each if task.summary is not None]
-        if each and not results and not given.only_done:
-            print(f"{each[0].folder}: no run has ended well; its run.log says why")
-        rows.append(row(case, files[case], motion, (given.start, given.end), results))
+    rows = rows_of(given, runs, files, motion)
+    if not rows:
+        raise RunError(f"{given.out}: no run of these rows is done")
     table = csv_text(list(rows[0]), [[f"{v:.4g}" if isinstance(v, float) else v for v in r.values()] for r in rows])
     write_text(to / f"{given.out.name}.csv", table)
     print(table, f"written: {to}/{given.out.name}.csv", sep="\n")

@@ -48,6 +48,7 @@ def test_walls_that_cannot_be_built_are_no_measures(tmp_path):
     house.write_text(f"""extends: storehouse
 structures:
   store:
+    walls: []
     columns: [{{section: 0.12, lines: {outer.replace(", cut: true", "")}}}]
     stack:
       - {{layer: foundation, height: 0.30, width: 0.15}}
