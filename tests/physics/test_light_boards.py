@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Light bodies between heavy ones: 1e-3 of the impulses of a block of 1 t change the velocity of a board of 1 kg by some
-0.1 m/s.
+"""Light bodies between heavy ones: 1e-3 of the impulses of a block of 1 t change the velocity of a board of 1 kg by
+some 0.1 m/s.
 """
 import numpy as np
 import pytest
