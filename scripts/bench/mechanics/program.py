@@ -38,7 +38,7 @@ def measured(program, row, dt, runs):
     """(value or "", note) of a row; runs: {scene's name: trajectory or the reason for having none}, which grows."""
     missing = [reason for ability, reason in program.lacks if ability in row.needs]
     if missing:
-        return "", f"not possible: {missing[0]}"
+        return "", missing[0] if missing[0].startswith("not run") else f"not possible: {missing[0]}"
     for scene in row.scenes(program.radius):
         if scene.name not in runs:
             try:

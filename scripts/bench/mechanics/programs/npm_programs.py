@@ -44,3 +44,8 @@ def bullet_safe():
 
 def mujoco_safe():
     return mujoco("MuJoCo, elliptic", "elliptic cone, RK4", options=MUJOCO_SAFE)
+
+
+def physx():
+    return engine_program("physx", "PhysX", "physx-js-webidl", "damping 0",
+                          lacks=(("forces", "not run: contact reports"),))
