@@ -200,7 +200,7 @@ constexpr int jointInterval = 4;
 constexpr double slidingRounding = 1e-9;
 
 /// Most iterations of Newton's method for the hardening of a contact in a visit of its point [-], and the relative
-/// change of the impulse that ends them [-].
+/// error of the displacement that ends them [-].
 /// Two or three suffice but for overlaps that grow a thousandfold.
 constexpr int hardeningSteps = 40;
 constexpr double hardeningTolerance = 1e-6;

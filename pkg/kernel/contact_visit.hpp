@@ -33,14 +33,17 @@ struct Hardening {
 	/// middle: displacement for the dashpot, <= d [m]
 	Hardening(const PointStep& c, double d, double middle)
 	{
-		const double q = c.power, stretch = 1 + d / c.overlap, share = 1 + middle / c.overlap;
-		const double power = powerOf(stretch, q);
+		const double q = c.power, over = 1 / c.overlap, growth = d * over, stretch = 1 + growth,
+		             rise = q == 1.5 ? std::sqrt(stretch) : power(stretch, q - 1);
+		force = c.hardening * (stretch * rise - 1 - q * growth);
+		slope = c.hardening * q * over * (rise - 1);
+		damping = dampingSlope = 0;
+		if (middle == 0) return;
 		// C ~ K^1/2 ~ n^((q-1)/2)
-		const double root = q == 1.5 ? std::sqrt(std::sqrt(share)) : timber::power(share, (q - 1) / 2);
-		force = c.hardening * (power - 1 - q * (stretch - 1));
-		slope = c.hardening * q / c.overlap * (power / stretch - 1);
+		const double share = 1 + middle * over,
+		             root = q == 1.5 ? std::sqrt(std::sqrt(share)) : power(share, (q - 1) / 2);
 		damping = c.damping * (root - 1);
-		dampingSlope = c.damping * (q - 1) / 2 * root / (c.overlap + middle);
+		dampingSlope = c.damping * (q - 1) / 2 * over * root / share;
 	}
 };
 
@@ -65,8 +68,10 @@ inline double hardenedImpulse(const PointStep& c, double linear, double way)
 		        = beta * h * spring.slope + spring.damping + (exceeds ? spring.dampingSlope * d / 2 : 0);
 		const double excess = d + factor * more - way, newton = d - excess / (1 + factor * slope), last = d;
 		(excess > 0 ? high : low) = d;
-		d = newton > low && newton < high ? newton : (low + high) / 2;
-		if (std::abs(d - last) <= hardeningTolerance * d) break;
+		const bool isInside = newton >= low && newton <= high;
+		d = isInside ? newton : (low + high) / 2;
+		// The error is less than the square of the last change, over d
+		if (isInside && (d - last) * (d - last) <= hardeningTolerance * d * d) break;
 	}
 	return linear + (way - d) / (h * a);
 }
