@@ -50,10 +50,9 @@ def test_house_that_is_not_symmetric():
     """Side wing: both N-S braces on its east line, 2.275 m from its middle; four E-W ones on lines 3.64 m apart.
 
     Torsion: E-W 3.64 m x 1.82^2 m2; radius^2 = torsion / 3.64 m of N-S quantity = 1.82^2.
-    Mass: floor, beams, roof, columns and outer walls of 0.26 kN/m2 lie symmetric to the middle; the four braces
-    of storey 2, 45 x 90 x 2878 mm,
-    lie 2.275 m (two) and 1.82 m (two) east of it. Tolerance: braces are up to 2 % shorter than the diagonal, 2e-4 of
-    Re, and Re is rounded to 5e-4.
+    Mass: floor, beams, roof, columns and outer walls of 0.26 kN/m2 lie symmetric to the middle; the four braces of
+    storey 2, 45 x 90 x 2878 mm, lie 2.275 m (two) and 1.82 m (two) east of it. Tolerance: braces are up to 2 % shorter
+    than the diagonal, 2e-4 of Re, and Re is rounded to 5e-4.
     """
     one = side("l_house", "side", "1", "ns")
     assert one["wall_quantity_m"] == pytest.approx(2 * 2 * 0.91, abs=1e-3)
