@@ -135,7 +135,7 @@ constexpr double restTolerance = 1e-6;
 /// Smallest convergence threshold as a share of the island's momenta. [-] Where a loose body has just touched, all
 /// impulses are zero after the first sweep and give no threshold. 0: sweeps to the limit at changes of 1e-40 J; larger:
 /// error of the impulses of soft contacts.
-constexpr double roundingTolerance = 1e-8;
+constexpr double roundingTolerance = 1e-7;
 
 /// Decrease of the convergence threshold during the sweeps of a step from which on they go on with the new one. [-]
 /// Where a warm start of 1 N s ends as 1e-4 N s, the threshold of the first sweep is larger than the impulses. 1:
