@@ -41,15 +41,28 @@ namespace {
 		const State &s1 = *bodyAt(scene, joint.id1)->state, &s2 = *bodyAt(scene, joint.id2)->state;
 		const Quaternionr toA = s1.ori.conjugate();
 		const vector<Vector3r> forces = joint.springForces();
+		std::unique_ptr<timber::SpringLaw> law = joint.springLaw();
 		std::vector<timber::SpringStep> steps;
+		Real account = joint.storedEnergy, dissipated = 0;
 		for (size_t k = 0; k < joint.broken.size(); ++k) {
 			if (joint.broken[k]) continue;
-			const Vector3r end = toA * (s2.pos + s2.ori * joint.anchors2[k] - s1.pos),
-			               stretch = end - joint.anchors1[k], force = toA * forces[k];
-			steps.push_back({ k, joint.isStiff() ? joint.halfStretches[k] : stretch, stretch,
-			        joint.isStiff() ? Vector3r(Vector3r::Zero()) : force, joint.modes.rates(end), force });
+			const Vector3r arm2 = s2.ori * joint.anchors2[k], arm1 = s2.pos + arm2 - s1.pos,
+			               end = toA * arm1, stretch = end - joint.anchors1[k], force = toA * forces[k];
+			timber::SpringStep step { k, stretch, stretch, Vector3r::Zero(), joint.modes.rates(end),
+				force };
+			if (joint.entersSolver()) {
+				const Vector3r change = scene.dt
+				        * (toA
+				                * timber::relativeVelocity<double>(
+				                        arm1, arm2, s1.vel, s1.angVel, s2.vel, s2.angVel));
+				step.from = toA * joint.stretches[k];
+				dissipated += timber::enterStep(*law, step, change, account);
+			} else if (joint.isStiff()) step.from = joint.halfStretches[k];
+			else step.applied = force;
+			steps.push_back(std::move(step));
 		}
-		timber::SpringSteps result(joint.springLaw(), std::move(steps), joint.storedEnergy, scene.dt);
+		timber::SpringSteps result(std::move(law), std::move(steps), account - dissipated, scene.dt);
+		result.dissipated = dissipated;
 		if (!joint.isStiff()) result.account = result.startEnergy();
 		return result;
 	}
@@ -71,33 +84,53 @@ namespace {
 		}
 	}
 
-	timber::JointForce totalForce(const timber::SpringSteps& steps, const Quaternionr& ori)
+	/// Forces of the springs about the bodies' centres. armA, armB: from these to the joint's centre
+	timber::JointForce totalForce(const timber::ModalConstraint& c, const TimberJoint& joint)
 	{
 		timber::JointForce total;
-		for (const timber::SpringStep& s : steps.springs) {
-			total.force += ori * s.force;
+		for (const timber::SpringStep& s : c.springs.springs) {
+			const Vector3r force = c.axesA * s.force,
+			               end = c.axesA * (s.placed + joint.anchors1[s.spring]); // from the centre of A
+			total.force += force;
+			total.torqueA += end.cross(force);
+			total.torqueB -= (end - c.armA + c.armB).cross(force);
 			total.sum += s.force.norm();
 			total.largestSquared = math::max(total.largestSquared, Real(s.force.squaredNorm()));
 		}
 		return total;
 	}
 
-	/// Energies of a stiff joint after the step. A joint that the step resolves goes back to JointEngine, with the
-	/// energy of explicit springs at the half step.
-	void storeEnergies(const timber::ModalConstraint& c, const ImplicitJoint& implicit, ImplicitJointResult& result)
+	/// Whether the joint stays in the solver: the step does not resolve it, or it opens fast.
+	bool stays(const timber::ModalConstraint& c, const TimberJoint& joint)
+	{
+		if (joint.modes.isStiff(c.h / timber::softPhase)) return true;
+		const auto isFast = [&](const timber::SpringStep& s) {
+			const Real change = c.h / timber::softPhase * joint.alongAxis(s.rates * c.after).norm();
+			return s.breaks || (joint.yields() && joint.missesKinks(change, c.h));
+		};
+		return std::any_of(c.springs.springs.begin(), c.springs.springs.end(), isFast);
+	}
+
+	/// Energies of a stiff joint after the step. One that does not stay goes back to JointEngine, with the energy of
+	/// explicit springs; it counts what they have beyond the account.
+	void storeEnergies(const timber::ModalConstraint& c, const ImplicitJoint& implicit, timber::JointForce& total,
+	        ImplicitJointResult& result)
 	{
 		TimberJoint& joint = *implicit.joint;
 		const bool breaks = std::any_of(c.springs.springs.begin(), c.springs.springs.end(),
 		        [](const timber::SpringStep& s) { return s.breaks; });
-		(joint.yields() ? result.yielded : breaks ? result.released : result.dashpots) += c.springs.dissipated;
+		Real& dissipated = joint.yields() ? result.yielded : breaks ? result.released : result.dashpots;
+		dissipated += c.springs.dissipated;
 		joint.storedEnergy = c.springs.account;
+		if (!stays(c, joint)) {
+			const timber::SpringSteps::Leaving left = c.springs.leave(c.h, c.after);
+			dissipated += left.dissipated;
+			result.stored += total.energy = left.stored;
+			total.isKnown = true;
+			return joint.soften();
+		}
 		result.stored += joint.storedEnergy;
 		result.debt += math::max(Real(0), -joint.storedEnergy);
-		if (joint.modes.isStiff(c.h / timber::softPhase)) return;
-		const Real lost = c.springs.explicitDefect(c.h, c.after);
-		result.stored -= lost;
-		result.dashpots += lost;
-		joint.soften();
 	}
 }
 
@@ -164,8 +197,9 @@ timber::PairForce storeJoint(const timber::ContactSolver& solver, size_t k, cons
 	if (implicit.isStiff) {
 		const Quaternionr& ori = bodyAt(scene, implicit.joint->id1)->state->ori;
 		storeSprings(c.springs, ori, implicit, result);
-		findEngine<JointEngine>(scene)->setForce(implicit.index, totalForce(c.springs, ori));
-		storeEnergies(c, implicit, result);
+		timber::JointForce total = totalForce(c, *implicit.joint);
+		storeEnergies(c, implicit, total, result);
+		findEngine<JointEngine>(scene)->setForce(implicit.index, total);
 	}
 	return { force, -c.armA.cross(force) - torque, c.armB.cross(force) + torque };
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <JointEngine.hpp>
+#include <ContactForces.hpp>
 #include <kernel/threads.hpp>
 #include <set>
 
@@ -141,34 +141,62 @@ void JointEngine::packJoints()
 	packed->isCurrent = true;
 }
 
+/// Whether explicit springs miss a kink of the law in this step, and the contact solver can move them.
+bool JointEngine::isFast(size_t index) const
+{
+	TimberJoint& joint = *joints[index];
+	if (!isSolved || joint.modes.state.springs == 0) return false;
+	const State &s1 = *bodyAt(*scene, joint.id1)->state, &s2 = *bodyAt(*scene, joint.id2)->state;
+	if (!isFree(s1) && !isFree(s2)) return false;
+	const timber::JointPlacement now = placement(packed->joints[index]);
+	const auto end2 = [&](size_t k) { return Vector3r(now.axesB * joint.anchors2[k]); };
+	const auto change = [&](size_t k) { // of the stretch since the last placement
+		const Vector3r rate = timber::relativeVelocity<double>(
+		        now.distance + end2(k), end2(k), s1.vel, s1.angVel, s2.vel, s2.angVel);
+		return joint.alongAxis(scene->dt * (now.axesA.transpose() * rate));
+	};
+	Real largest = 0;
+	for (size_t k = 0; k < joint.broken.size(); ++k)
+		if (!joint.broken[k]) largest = math::max(largest, change(k).squaredNorm());
+	if (!joint.missesKinks(math::sqrt(largest), scene->dt)) return false;
+	const std::unique_ptr<timber::SpringLaw> law = joint.springLaw();
+	law->keepsForce = false;
+	Real error = 0, size = 0; // of the trapezoidal rule
+	for (size_t k = 0; k < joint.broken.size(); ++k) {
+		if (joint.broken[k]) continue;
+		const Vector3r moved = change(k),
+		               stretch = now.axesA.transpose() * (now.distance + end2(k)) - joint.anchors1[k];
+		const timber::SpringState before = law->trial(k, now.axesA.transpose() * joint.stretches[k]),
+		                          after = law->trial(k, stretch);
+		error += after.energy + after.dissipated - before.energy - (before.force + after.force).dot(moved) / 2;
+		size += after.energy + after.dissipated;
+	}
+	return math::abs(error) > timber::kinkShare * timber::kinkShare * size;
+}
+
 void JointEngine::computeForce(size_t index)
 {
 	const timber::PackedJoint& joint = packed->joints[index];
 	timber::JointForce& total = jointForces[index];
 	if (joint.isActive && !(hasBody(joint.bodyA) && hasBody(joint.bodyB))) joints[index]->breakAll();
 	if (!joint.isActive || joint.isStiff) total = {};
-	else if (joint.yields) yield(index);
-	else
-		timber::springForces(joint.stiffness, placement(joint), joint.normal, packed->first(joint),
-		        packed->end(joint), total);
+	else {
+		const timber::JointForce before = total;
+		if (joint.yields) total = joints[index]->yield(placement(joint));
+		else
+			timber::springForces(joint.stiffness, placement(joint), joint.normal, packed->first(joint),
+			        packed->end(joint), total);
+		if (before.isKnown) errors[index] = createdBetween(joint, before, total);
+	}
 }
 
-/// Forces of a joint that yields. Its energies differ from the work of the forces before and after the last motion
-/// where the law is not linear.
-void JointEngine::yield(size_t index)
+/// Energy beyond the work of the forces before and after the last motion, where the law is not linear. [J]
+Real JointEngine::createdBetween(
+        const timber::PackedJoint& joint, const timber::JointForce& before, const timber::JointForce& now) const
 {
-	const timber::PackedJoint& joint = packed->joints[index];
-	TimberJoint& j = *joints[index];
-	const timber::JointForce before = jointForces[index];
-	timber::JointForce& total = jointForces[index];
-	total = j.isOfWall()
-	        ? timber::wallForces(j.wallLaw(), placement(joint), j.normal, j.springs(), j.wallHistories)
-	        : timber::slipForces(j.slipLaw(), placement(joint), j.slipAxis(), j.springs(), j.slipHistories());
-	if (!before.isKnown) return;
 	const timber::BodyKinematics a = kinematics(*bodyAt(*scene, joint.bodyA)->state),
 	                             b = kinematics(*bodyAt(*scene, joint.bodyB)->state);
-	errors[index] = total.energy + total.dissipated - before.energy
-	        + scene->dt / 2 * (before.power(a, b) + total.power(a, b));
+	return now.energy + now.dissipated - before.energy + scene->dt / 2 * (before.power(a, b) + now.power(a, b));
 }
 
 void JointEngine::computeForces()
@@ -214,11 +242,7 @@ void JointEngine::breakSprings(size_t index)
 void JointEngine::breakYielded(size_t index)
 {
 	TimberJoint& joint = *joints[index];
-	const std::vector<timber::SpringBreak> events = joint.isOfWall()
-	        ? timber::wallBreaks(joint.wallLaw(), joint.springs(), joint.wallHistories)
-	        : timber::slipBreaks(joint.slipLaw(), placement(packed->joints[index]), joint.normal, joint.springs(),
-	                joint.slipHistories());
-	for (const timber::SpringBreak& event : events)
+	for (const timber::SpringBreak& event : joint.spentSprings(bodies[joint.id1].axes))
 		breakSpring(index, event);
 }
 
@@ -269,6 +293,8 @@ void JointEngine::addSprings(const Scene& current, std::vector<timber::PointSpri
 void JointEngine::action()
 {
 	packJoints();
+	const ContactForces* solver = findEngine<ContactForces>(*scene);
+	isSolved = solver && solver->sweeps > 0;
 	collectBodies();
 	breakReplaced();
 	computeForces();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Owner of the joints' springs: their forces, breaks and energies. Brittle springs and the rule of breaking:
-/// kernel/joint_law.hpp. Yielding springs:
-/// kernel/slip_law.hpp, kernel/wall_springs.hpp.
+/// kernel/joint_law.hpp. Yielding springs: kernel/slip_law.hpp, kernel/wall_springs.hpp. Joints that a step does not
+/// resolve, or that open fast, go to the contact solver (kernel/spring_step.hpp).
 #pragma once
 #include <TimberJoint.hpp>
 #include <bodies.hpp>
@@ -34,7 +34,8 @@ class JointEngine : public GlobalEngine {
 	std::vector<Placement> bodies; ///< by id
 	shared_ptr<timber::PackedJoints> packed { new timber::PackedJoints };
 	std::vector<timber::JointForce> jointForces; ///< of the joints' unbroken springs in this step
-	std::vector<Real> errors; ///< of the joints that yield, in this step, see `created` [J]
+	std::vector<Real> errors; ///< of the joints in this step, see `created` [J]
+	bool isSolved = false; ///< ContactForces moves joints that this engine hands over
 	BodyForces sums; ///< of the joints
 
 	bool hasBody(Body::id_t) const;
@@ -47,8 +48,10 @@ class JointEngine : public GlobalEngine {
 		const Placement &a = bodies[joint.bodyA], &b = bodies[joint.bodyB];
 		return { a.axes, b.axes, b.position - a.position };
 	}
+	bool isFast(size_t joint) const;
 	void computeForce(size_t joint);
-	void yield(size_t joint);
+	Real createdBetween(
+	        const timber::PackedJoint&, const timber::JointForce& before, const timber::JointForce& now) const;
 	void computeForces();
 	void breakSprings(size_t joint);
 	void breakYielded(size_t joint);
@@ -95,8 +98,8 @@ public:
 			"or lost a body. [J]"))
 		((Real, elastic, 0, , "Elastic energy of the springs at the placement of the last step. [J]"))
 		((Real, yielded, 0, , "Energy dissipated by yielding springs. [J]"))
-		((Real, created, 0, , "Energy that yielding springs have stored and dissipated beyond the work of the "
-			"bodies on them: error of the steps that resolve them. [J]")),
+		((Real, created, 0, , "Energy that springs have stored and dissipated beyond the work of the bodies on "
+			"them: error of explicit yielding springs, and of joints that leave the contact solver. [J]")),
 		,
 		.def("append", &JointEngine::append, (boost::python::arg("joint")), "Adds a joint and returns its "
 			"index. [-]")

@@ -135,13 +135,34 @@ void TimberJoint::breakSpring(size_t spring)
 
 std::unique_ptr<timber::SpringLaw> TimberJoint::springLaw()
 {
-	if (isWall) return std::make_unique<timber::WallSprings>(wall, normal, wallHistories);
-	if (isSlip) return std::make_unique<timber::SlipSprings>(slip, slipAxis(), slipHistories());
+	if (isWall) return std::make_unique<timber::WallSprings>(wallSprings());
+	if (isSlip) return std::make_unique<timber::SlipSprings>(slipSprings());
 	return std::make_unique<timber::BrittleSprings>(stiffness(), jointStrength(), normal);
+}
+
+timber::JointForce TimberJoint::yield(const timber::JointPlacement& placement)
+{
+	const auto forces = [&](timber::SpringLaw&& law) { return yieldingForces(law, placement, axis(), springs()); };
+	return isWall ? forces(wallSprings()) : forces(slipSprings());
+}
+
+std::vector<timber::SpringBreak> TimberJoint::spentSprings(const Matrix3r& axes1)
+{
+	const auto spent = [&](const timber::SpringLaw& law) {
+		return timber::spentSprings(law, stiffness(), axes1, normal, springs());
+	};
+	return isWall ? spent(wallSprings()) : spent(slipSprings());
+}
+
+void TimberJoint::enterSolver()
+{
+	stiffen();
+	enters = true;
 }
 
 void TimberJoint::stiffen()
 {
+	enters = false;
 	storeSprings();
 	halfStretches.resize(anchors1.size(), Vector3r::Zero());
 	if (packed) packed->joints[index].isStiff = true;

@@ -34,6 +34,7 @@ class TimberJoint : public Serializable {
 	bool isRead = false; ///< attributes were read or set: those set later decide about the modes
 	bool isSlip = false; ///< law == "slip": a comparison of strings for each joint and step takes 2 % of a step
 	bool isWall = false; ///< law == "wall"
+	bool enters = false; ///< see enterSolver()
 	timber::SlipLaw slip; ///< of a spring, from the attributes
 	timber::WallLaw wall; ///< likewise
 	/// Of the engine: they have the springs' stretches and forces of the last step. Null: the attributes have them,
@@ -52,6 +53,8 @@ class TimberJoint : public Serializable {
 	SpringVectors lastSprings() const;
 	/// Sets the attributes to those of the last step.
 	void storeSprings();
+	timber::WallSprings wallSprings() { return { wall, normal, wallHistories }; }
+	timber::SlipSprings slipSprings() { return { slip, axis(), { plasticStretches, largestStretches } }; }
 	/// Of a spring in the joint's stiffness and strength.
 	Real share() const { return perJoint ? Real(1) / anchors1.size() : 1; }
 
@@ -90,30 +93,40 @@ public:
 	/// write them.
 	timber::JointSprings springs();
 	bool yields() const { return isSlip || isWall; }
-	bool isOfWall() const { return isWall; }
 	/// Points of the envelope, with a share of its forces.
 	std::vector<timber::BackbonePoint> envelopePoints(Real share) const;
 	/// Backbone of a spring that yields; perJoint: with its share of the joint's strength.
 	std::vector<timber::BackbonePoint> backbone() const;
-	/// Law of a spring that yields.
-	const timber::SlipLaw& slipLaw() const { return slip; }
-	/// Axis of springs that yield along the normal only (ks = 0), else zero. [-]
-	Vector3r slipAxis() const { return ks == 0 ? normal : Vector3r::Zero(); }
-	/// Law of a spring of a wall, and its histories.
-	const timber::WallLaw& wallLaw() const { return wall; }
-	/// With a share of its forces.
+	/// Of springs that yield along the normal only (ks = 0), else zero. [-]
+	Vector3r axis() const { return ks == 0 ? normal : Vector3r::Zero(); }
+	/// The part of a stretch that counts. v: in the frame of body 1
+	Vector3r alongAxis(const Vector3r& v) const { return ks == 0 ? Vector3r(normal.dot(v) * normal) : v; }
+	/// Forces and new histories of springs that yield.
+	timber::JointForce yield(const timber::JointPlacement&);
+	/// Springs that yield and have no strength left. axes1: rotation matrix of body 1
+	std::vector<timber::SpringBreak> spentSprings(const Matrix3r& axes1);
+	/// Whether explicit springs that yield may miss kinks of their law. change: of their stretches in a step of h
+	/// [m, s]
+	bool missesKinks(Real change, Real h) const
+	{
+		return timber::missesKinks(h * modes.frequencies[5], change, strength / kn);
+	}
+	/// Law of a wall with a share of its forces.
 	timber::WallCycles wallCycles(Real share) const;
 	boost::python::list pyWallHistories() const;
-	timber::SlipHistories slipHistories() { return { plasticStretches, largestStretches }; }
 	timber::SpringGroup springGroup() const { return { anchors1, broken, stiffness(), normal }; }
 	void breakSpring(size_t spring);
 	void breakAll();
-	/// Law of the springs in steps that do not resolve them. Valid until an attribute is set.
+	/// Law of the springs in the contact solver. Valid until an attribute is set.
 	std::unique_ptr<timber::SpringLaw> springLaw();
 	/// Whether the contact solver moves the springs: the step does not resolve them.
 	bool isStiff() const { return !halfStretches.empty(); }
 	/// From this step on the contact solver moves the springs.
 	void stiffen();
+	/// The same where JointEngine leaves out the step: the springs' state is that of the last placement.
+	void enterSolver();
+	/// Whether enterSolver() was called in this step.
+	bool entersSolver() const { return enters; }
 	/// From the next step on JointEngine moves the springs.
 	void soften();
 

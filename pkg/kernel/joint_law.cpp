@@ -97,6 +97,38 @@ void springForces(const JointStiffness& stiffness, const JointPlacement& placeme
 	total = { sums.vector(0), sums.vector(3), sums.vector(6), sums[9], 0, 1, largest, sums[10] };
 }
 
+JointForce yieldingForces(
+        SpringLaw& law, const JointPlacement& placement, const Vec3& axis, const JointSprings& springs)
+{
+	assert((axis.isZero() || isUnit(axis)) && isFinite(placement.distance));
+	const Vec3 worldAxis = placement.axesA * axis;
+	JointForce total;
+	total.isKnown = true;
+	double tangents = 0, intact = 0;
+	for (size_t i = 0; i < springs.broken.size(); ++i) {
+		if (springs.broken[i]) continue;
+		const Vec3 armB = placement.axesB * springs.anchorsB[i], end = placement.distance + armB;
+		Vec3 stretch = end - placement.axesA * springs.anchorsA[i];
+		if (!worldAxis.isZero()) stretch = worldAxis.dot(stretch) * worldAxis;
+		const SpringState state = law.commit(i, placement.axesA.transpose() * stretch);
+		const Vec3 force = placement.axesA * state.force;
+		springs.stretches[i] = stretch;
+		springs.forces[i] = force;
+		tangents += state.share;
+		++intact;
+		total.force += force;
+		// The force is not along the stretch: it acts on both bodies at the anchor of B
+		total.torqueA += end.cross(force);
+		total.torqueB -= armB.cross(force);
+		total.largestSquared = std::max(total.largestSquared, force.squaredNorm());
+		total.sum += force.norm();
+		total.energy += state.energy;
+		total.dissipated += state.dissipated;
+	}
+	if (intact > 0) total.tangent = tangents / intact;
+	return total;
+}
+
 bool isOverloaded(const JointStrength& limit, const JointForce& force)
 {
 	assert(limit.strength > 0);
@@ -130,6 +162,18 @@ std::vector<SpringBreak> springBreaks(const JointStiffness& k, const JointStreng
 	return breaks;
 }
 
+std::vector<SpringBreak> spentSprings(const SpringLaw& law, const JointStiffness& k, const Mat3& axesA,
+        const Vec3& normal, const JointSprings& springs)
+{
+	assert(isValid(k) && isUnit(normal));
+	std::vector<SpringBreak> breaks;
+	for (size_t i = 0; i < springs.broken.size(); ++i)
+		if (!springs.broken[i] && law.isSpent(i))
+			breaks.push_back(
+			        { i, breakCause(springForce<double>(k, springs.stretches[i], axesA * normal)), 0, 0 });
+	return breaks;
+}
+
 BrittleSprings::BrittleSprings(const JointStiffness& k, const JointStrength& limit, const Vec3& normal)
         : stiffness(k.shear * Mat3::Identity() + (k.normal - k.shear) * normal * normal.transpose())
         , strength(limit)
@@ -159,7 +203,7 @@ void BrittleSprings::weaken(SpringState& state, double share) const
 	state.breaks = true;
 }
 
-SpringState BrittleSprings::trial(size_t, const Vec3&, const Vec3& to) const
+SpringState BrittleSprings::trial(size_t, const Vec3& to) const
 {
 	SpringState state = elastic(to);
 	const double size = state.force.norm();

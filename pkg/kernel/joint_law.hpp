@@ -98,6 +98,11 @@ struct JointForce {
 void springForces(const JointStiffness& stiffness, const JointPlacement& placement, const Vec3& normal,
         SpringLanes* first, const SpringLanes* end, JointForce& total);
 
+/// The same of springs with a history, which goes on; the entries of broken springs stay as they are. axis: unit vector
+/// in the frame of A, on which the stretches are projected; zero: the springs act in all directions.
+JointForce yieldingForces(
+        SpringLaw& law, const JointPlacement& placement, const Vec3& axis, const JointSprings& springs);
+
 /// Strength of a joint (section 3.2).
 struct JointStrength {
 	double strength; ///< P_max [N]
@@ -129,6 +134,11 @@ struct JointMotion {
 std::vector<SpringBreak> springBreaks(const JointStiffness& k, const JointStrength& limit,
         const JointPlacement& placement, const Vec3& normal, const JointSprings& springs, const JointMotion& motion);
 
+/// Springs that yield and have no strength left, in their order. They have no force and no energy. axesA: rotation
+/// matrix from the frame of A to the world; normal: in the frame of A.
+std::vector<SpringBreak> spentSprings(const SpringLaw& law, const JointStiffness& k, const Mat3& axesA,
+        const Vec3& normal, const JointSprings& springs);
+
 /// The springs in a step that does not resolve them: forces within the strength, springs that reach it break at the
 /// end of the step.
 class BrittleSprings : public SpringLaw {
@@ -141,8 +151,8 @@ class BrittleSprings : public SpringLaw {
 public:
 	/// normal: in the frame of A
 	BrittleSprings(const JointStiffness&, const JointStrength&, const Vec3& normal);
-	SpringState trial(size_t spring, const Vec3& from, const Vec3& to) const override;
-	SpringState commit(size_t spring, const Vec3& from, const Vec3& to) override { return trial(spring, from, to); }
+	SpringState trial(size_t spring, const Vec3& to) const override;
+	SpringState commit(size_t spring, const Vec3& to) override { return trial(spring, to); }
 	/// With P_max of the joint, the forces beyond it fall by the same number: the closest ones in terms of energy.
 	double limit(std::vector<SpringState>& states, std::vector<Vec3>& shared) const override;
 };

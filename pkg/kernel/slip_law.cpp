@@ -67,6 +67,16 @@ SlipLaw::Slack SlipLaw::slackAt(double largest) const
 	return { slack, a.limitIntegral + (a.limit() + (largest - slack)) / 2 * (slack - a.slack) };
 }
 
+double SlipLaw::steepestFall() const
+{
+	double steepest = 0;
+	for (size_t i = 1; i < knots.size(); ++i)
+		steepest = std::max(steepest,
+		        stiffness * (knots[i - 1].limit() - knots[i].limit())
+		                / (knots[i].stretch - knots[i - 1].stretch));
+	return steepest;
+}
+
 double SlipLaw::largestLimit(double from, double to) const
 {
 	const auto limitAt = [this](double largest) { return largest - slackAt(largest).slack; };
@@ -153,63 +163,13 @@ SlipForce slipForce(const SlipLaw& law, const SlipHistory& history, const Vec3& 
 	return forceOf(law, history, stretch, growth(law, history.largest, std::max(history.largest, stretch.norm())));
 }
 
-SlipForce heldSlipForce(const SlipLaw& law, const SlipHistory& history, const Vec3& stretch, Mat3& tangent)
+SlipForce slipForce(const SlipLaw& law, const SlipHistory& history, const Vec3& stretch, bool keepsForce, Mat3& tangent)
 {
 	assert(law.isValid() && isFinite(history.plastic) && history.largest >= 0 && isFinite(stretch));
-	const SlipGrowth g = heldGrowth(law, history.largest, std::max(history.largest, stretch.norm()));
+	const SlipGrowth g
+	        = (keepsForce ? heldGrowth : growth)(law, history.largest, std::max(history.largest, stretch.norm()));
 	tangent = tangentOf(law, history, stretch, g);
 	return forceOf(law, history, stretch, g);
-}
-
-JointForce slipForces(const SlipLaw& law, const JointPlacement& placement, const Vec3& axis,
-        const JointSprings& springs, const SlipHistories& histories)
-{
-	assert(axis.isZero() || isUnit(axis));
-	assert(isFinite(placement.distance) && histories.plastic.size() == springs.broken.size()
-	        && histories.largest.size() == springs.broken.size());
-	const Vec3 worldAxis = placement.axesA * axis;
-	JointForce total;
-	total.isKnown = true;
-	double tangents = 0, intact = 0;
-	for (size_t i = 0; i < springs.broken.size(); ++i) {
-		if (springs.broken[i]) continue;
-		const Vec3 armB = placement.axesB * springs.anchorsB[i], end = placement.distance + armB;
-		Vec3 stretch = end - placement.axesA * springs.anchorsA[i];
-		if (!worldAxis.isZero()) stretch = worldAxis.dot(stretch) * worldAxis;
-		const SlipHistory before { histories.plastic[i], histories.largest[i] };
-		const SlipForce f = slipForce(law, before, placement.axesA.transpose() * stretch);
-		tangents += tangentAlong(law, before, f.history, stretch.norm());
-		++intact;
-		const Vec3 force = placement.axesA * f.force;
-		springs.stretches[i] = stretch;
-		springs.forces[i] = force;
-		histories.plastic[i] = f.history.plastic;
-		histories.largest[i] = f.history.largest;
-		total.force += force;
-		// The force is not along the stretch: it acts on both bodies at the anchor of B
-		total.torqueA += end.cross(force);
-		total.torqueB -= armB.cross(force);
-		total.largestSquared = std::max(total.largestSquared, force.squaredNorm());
-		total.sum += force.norm();
-		total.energy += f.energy;
-		total.dissipated += f.dissipated;
-	}
-	if (intact > 0) total.tangent = tangents / intact;
-	return total;
-}
-
-std::vector<SpringBreak> slipBreaks(const SlipLaw& law, const JointPlacement& placement, const Vec3& normal,
-        const JointSprings& springs, const SlipHistories& histories)
-{
-	assert(law.isValid() && isUnit(normal));
-	std::vector<SpringBreak> breaks;
-	for (size_t i = 0; i < springs.broken.size(); ++i) {
-		if (springs.broken[i] || histories.largest[i] < law.ultimateStretch()) continue;
-		const JointStiffness k { law.stiffness, law.stiffness };
-		breaks.push_back({ i,
-		        breakCause(springForce<double>(k, springs.stretches[i], placement.axesA * normal)), 0, 0 });
-	}
-	return breaks;
 }
 
 SlipSprings::SlipSprings(const SlipLaw& l, const Vec3& a, const SlipHistories& h)
@@ -230,21 +190,24 @@ SpringState SlipSprings::projected(const SlipForce& force, const Mat3& tangent) 
 	return state;
 }
 
-SpringState SlipSprings::trial(size_t spring, const Vec3&, const Vec3& to) const
+SpringState SlipSprings::trial(size_t spring, const Vec3& to) const
 {
 	Mat3 tangent;
-	const SlipForce force
-	        = heldSlipForce(law, { histories.plastic[spring], histories.largest[spring] }, onAxis(to), tangent);
+	const SlipForce force = slipForce(
+	        law, { histories.plastic[spring], histories.largest[spring] }, onAxis(to), keepsForce, tangent);
 	return projected(force, tangent);
 }
 
-SpringState SlipSprings::commit(size_t spring, const Vec3&, const Vec3& to)
+SpringState SlipSprings::commit(size_t spring, const Vec3& to)
 {
-	const SlipForce force = slipForce(law, { histories.plastic[spring], histories.largest[spring] }, onAxis(to));
+	const SlipHistory before { histories.plastic[spring], histories.largest[spring] };
+	const Vec3 stretch = onAxis(to);
+	const SlipForce force = slipForce(law, before, stretch);
 	histories.plastic[spring] = force.history.plastic;
 	histories.largest[spring] = force.history.largest;
 	SpringState state = projected(force, Mat3::Zero());
-	state.breaks = force.history.largest >= law.ultimateStretch();
+	state.share = tangentAlong(law, before, force.history, stretch.norm());
+	state.breaks = isSpent(spring);
 	return state;
 }
 

@@ -87,6 +87,7 @@ public:
 	Slack slackAt(double largest) const;
 	/// Largest elastic limit y while the largest length of the stretch grows between two values [m].
 	double largestLimit(double from, double to) const;
+	double steepestFall() const; ///< of the backbone, >= 0 [N/m]
 };
 
 struct SlipHistory {
@@ -105,9 +106,10 @@ struct SlipForce {
 /// nothing.
 SlipForce slipForce(const SlipLaw& law, const SlipHistory& history, const Vec3& stretch);
 
-/// The same for a step that does not resolve the spring: a backbone that falls on the path keeps its largest force.
-/// tangent: out, of the force by the stretch [N/m].
-SlipForce heldSlipForce(const SlipLaw& law, const SlipHistory& history, const Vec3& stretch, Mat3& tangent);
+/// The same with the tangent of the force by the stretch, which does not fall. keepsForce: a backbone that falls on the
+/// path keeps its largest force. tangent: out [N/m].
+SlipForce slipForce(
+        const SlipLaw& law, const SlipHistory& history, const Vec3& stretch, bool keepsForce, Mat3& tangent);
 
 /// Histories of a joint's springs, one entry each.
 struct SlipHistories {
@@ -115,16 +117,7 @@ struct SlipHistories {
 	std::vector<double>& largest; ///< R [m]
 };
 
-/// Stretches, forces and new histories of a joint's unbroken springs. The entries of broken springs stay as they are.
-/// axis: unit vector in the frame of A, on which the stretches are projected; zero: the springs act in all directions.
-JointForce slipForces(const SlipLaw& law, const JointPlacement& placement, const Vec3& axis,
-        const JointSprings& springs, const SlipHistories& histories);
-
-/// Springs that have reached the ultimate stretch, in their order. They have no force and no energy left.
-std::vector<SpringBreak> slipBreaks(const SlipLaw& law, const JointPlacement& placement, const Vec3& normal,
-        const JointSprings& springs, const SlipHistories& histories);
-
-/// The springs in a step that does not resolve them.
+/// The springs of a joint.
 class SlipSprings : public SpringLaw {
 	const SlipLaw& law;
 	Vec3 axis;
@@ -134,10 +127,13 @@ class SlipSprings : public SpringLaw {
 	Vec3 onAxis(const Vec3& stretch) const { return axis.isZero(0) ? stretch : Vec3(axis.dot(stretch) * axis); }
 
 public:
-	/// axis: as of slipForces(). law and histories are not copied.
+	/// axis: unit vector in the frame of A, on which the stretches are projected; zero: they act in all directions.
+	/// law and histories are not copied.
 	SlipSprings(const SlipLaw&, const Vec3& axis, const SlipHistories&);
-	SpringState trial(size_t spring, const Vec3& from, const Vec3& to) const override;
-	SpringState commit(size_t spring, const Vec3& from, const Vec3& to) override;
+	SpringState trial(size_t spring, const Vec3& to) const override;
+	SpringState commit(size_t spring, const Vec3& to) override;
+	bool isSpent(size_t spring) const override { return histories.largest[spring] >= law.ultimateStretch(); }
+	double steepestFall() const override { return law.steepestFall(); }
 };
 
 } // namespace timber

@@ -15,18 +15,25 @@ struct SpringState {
 	double energy = 0; ///< U: what it could return [J]
 	double dissipated = 0; ///< D >= 0, on the straight path from the stretch before the step [J]
 	bool breaks = false; ///< exceeds its strength or ultimate stretch
+	/// Tangent stiffness along the stretch over the initial one, 0 to 1, after commit() [-]
+	double share = 1;
 };
 
 /// Springs of a joint with their histories.
 class SpringLaw {
 public:
 	virtual ~SpringLaw() = default;
-	/// State at the end of the straight path between two stretches, the first of which is that of the history [m].
-	/// The history stays. Along a path that goes on the force must not fall: a law that softens keeps its force
-	/// here, and loses it in commit().
-	virtual SpringState trial(size_t spring, const Vec3& from, const Vec3& to) const = 0;
-	/// The same with all of the law; the history goes on to the second stretch.
-	virtual SpringState commit(size_t spring, const Vec3& from, const Vec3& to) = 0;
+	/// State at the end of the straight path from the stretch of the history to another one [m].
+	/// The history stays. With keepsForce the force must not fall along a path that goes on: a law that softens
+	/// keeps its force here, and loses it in commit().
+	virtual SpringState trial(size_t spring, const Vec3& to) const = 0;
+	/// The same with all of the law; the history goes on to the other stretch.
+	virtual SpringState commit(size_t spring, const Vec3& to) = 0;
+	/// Whether no strength is left. Springs that reach their strength without a history break in other ways.
+	virtual bool isSpent(size_t) const { return false; }
+	/// Largest rate at which the force of the first loading falls with the stretch; 0: it never does. [N/m]
+	virtual double steepestFall() const { return 0; }
+	bool keepsForce = true; ///< the step does not resolve the fall of the force
 	/// Applies a strength that the springs share to trial states. shared: out, unit vectors of the forces that it
 	/// limits, of each spring. Returns kappa: the tangent of all forces is that of the states minus kappa s s^T
 	/// with the vector s of all entries of `shared` [N/m]; 0 without such a limit, or below it.

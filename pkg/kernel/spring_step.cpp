@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "spring_step.hpp"
-#include "constants.hpp"
 #include "preconditions.hpp"
 #include "solver_body.hpp"
 #include <Eigen/Cholesky>
@@ -23,20 +22,29 @@ namespace {
 		return mean + std::max(-largest, std::min(missing, largest)) / square * way;
 	}
 
-	/// Tangent of F by z1: half of that of f1, with the exact slope along the way.
-	Mat3 meanTangent(const SpringState& end, const Vec3& force, const Vec3& way)
+	/// Tangent of F by z1: half of that of f1, with the exact slope along the way, at least `least`.
+	Mat3 meanTangent(const SpringState& end, const Vec3& force, const Vec3& way, double least)
 	{
 		Mat3 tangent = end.tangent / 2;
 		const double square = way.squaredNorm();
 		if (square == 0) return tangent;
 		const Vec3 along = way / std::sqrt(square), turned = tangent * along;
-		const double half = along.dot(turned), slope = std::max(0., (end.force - force).dot(way) / square);
-		if (slope >= half) tangent += (slope - half) * along * along.transpose();
+		const double half = along.dot(turned), slope = std::max(least, (end.force - force).dot(way) / square);
+		if (slope >= half || slope < 0) tangent += (slope - half) * along * along.transpose();
 		else tangent -= (1 - slope / half) / half * turned * turned.transpose();
 		return tangent;
 	}
 
 } // namespace
+
+double enterStep(SpringLaw& law, SpringStep& step, const Vec3& change, double& energy)
+{
+	const SpringState before = law.trial(step.spring, step.from);
+	step.from = step.placed - change / 2;
+	step.force = before.force;
+	energy += before.energy + before.force.dot(change) / 2;
+	return law.commit(step.spring, step.from).dissipated;
+}
 
 SpringSteps::SpringSteps(std::unique_ptr<SpringLaw> l, std::vector<SpringStep> steps, double stored, double h)
         : law(std::move(l))
@@ -46,11 +54,14 @@ SpringSteps::SpringSteps(std::unique_ptr<SpringLaw> l, std::vector<SpringStep> s
         , account(stored)
 {
 	assert(law && h > 0);
+	double rates = 0;
 	for (SpringStep& s : springs) {
 		assert(isFinite(s.from) && isFinite(s.placed) && isFinite(s.applied) && isFinite(s.rates));
-		s.start = law->trial(s.spring, s.from, s.from);
+		s.start = law->trial(s.spring, s.from);
 		applied -= h * s.rates.transpose() * s.applied;
+		rates += s.rates.squaredNorm();
 	}
+	law->keepsForce = h * h * law->steepestFall() * rates >= 1;
 }
 
 double SpringSteps::tangent(const JointStiffness& stiffness) const
@@ -69,14 +80,16 @@ double SpringSteps::startEnergy() const
 	return energy;
 }
 
-double SpringSteps::explicitDefect(double h, const Vec6& after) const
+SpringSteps::Leaving SpringSteps::leave(double h, const Vec6& after) const
 {
-	double energy = 0;
-	for (size_t i = 0; i < springs.size(); ++i) {
-		const Vec3 way = h / 2 * (springs[i].rates * after);
-		energy += way.dot(springs[i].start.tangent * way) / 2;
+	double atHalfStep = 0, work = 0; // of explicit springs; since the placement
+	for (const SpringStep& s : springs) {
+		const Vec3 half = h / 2 * (s.rates * after);
+		const SpringState next = law->trial(s.spring, s.stretch + half);
+		atHalfStep += next.energy + next.dissipated - next.force.dot(half);
+		work += s.force.dot(half);
 	}
-	return energy;
+	return { std::min(account, atHalfStep) - work, std::max(0., account - atHalfStep) };
 }
 
 Vec6 SpringSteps::warmStart(double h) const
@@ -93,7 +106,7 @@ double SpringSteps::tryStretches(double h, const Vec6& after)
 	for (size_t i = 0; i < springs.size(); ++i) {
 		SpringStep& s = springs[i];
 		s.stretch = s.placed + h / 2 * (s.rates * after);
-		states[i] = law->trial(s.spring, s.from, s.stretch);
+		states[i] = law->trial(s.spring, s.stretch);
 	}
 	const double kappa = law->limit(states, shared);
 	for (size_t i = 0; i < springs.size(); ++i)
@@ -115,11 +128,12 @@ Mat6 SpringSteps::slope(const ModalStep& step, double kappa) const
 {
 	Mat6 matrix = Mat6::Zero();
 	Vec6 together = Vec6::Zero();
+	const double least = law->keepsForce ? 0 : -law->steepestFall();
 	for (size_t i = 0; i < springs.size(); ++i) {
 		const SpringStep& s = springs[i];
 		// With a shared strength the slope along one spring's way depends on the other springs
-		const Mat3 tangent
-		        = kappa > 0 ? Mat3(states[i].tangent / 2) : meanTangent(states[i], s.force, s.stretch - s.from);
+		const Mat3 tangent = kappa > 0 ? Mat3(states[i].tangent / 2)
+		                               : meanTangent(states[i], s.force, s.stretch - s.from, least);
 		matrix += s.rates.transpose() * tangent * s.rates;
 		if (kappa > 0) together += s.rates.transpose() * shared[i];
 	}
@@ -190,13 +204,13 @@ void SpringSteps::finish(const ModalStep& step, const Vec6& impulse, const Vec6&
 	for (size_t i = 0; i < springs.size(); ++i) {
 		SpringStep& s = springs[i];
 		const bool breaks = states[i].breaks;
-		if (!breaks) states[i] = law->commit(s.spring, s.from, s.stretch);
+		if (!breaks) states[i] = law->commit(s.spring, s.stretch);
 		s.force = forces[i];
 		s.end = states[i];
 		s.breaks = breaks || states[i].breaks;
 		if (!s.breaks) energy += states[i].energy;
 	}
-	dissipated = std::max(0., account - energy);
+	dissipated += std::max(0., account - energy);
 	account = std::min(account, energy);
 }
 

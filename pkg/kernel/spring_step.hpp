@@ -18,12 +18,25 @@
 /// which increases with eta' (forces do not fall): Newton's method with the matrix 1 + x + h2/4 sum G^T f' G, f' the
 /// tangents.
 ///
+/// A law that softens does so within the step where its steepest fall k_f leaves the slope of (3) above 1/2,
+///     h2 k_f sum |G|2 < 1,
+/// and keeps its force to the end of the step otherwise.
+///
+/// Joints that the step resolves are explicit but for steps that may miss kinks of the law. At a kink where the
+/// stiffness changes by k explicit springs that stretch by d in a step have an error of up to k d2 / 8. A body that
+/// reaches the elastic limit y has brought at least k y2 / 2 and the kinetic energy k d2 / (2 (omega h)2): the error is
+///     1 / (4 ((y / d)2 + 1 / (omega h)2))                                                       (5)
+/// of it at most. Where (5) exceeds kinkShare and the trapezoidal rule is not exact in a step, the joint enters the
+/// solver: z0 is the half step, A the energy of explicit springs there. That of z0 is larger by k d2 / 8, which plastic
+/// work pays. It leaves when (5) does not hold any more, with the energy that explicit springs have, at most A.
+///
 /// Account A: the work that the bodies have done on the springs as far as it is neither returned nor dissipated. The
 /// springs return at most A,
 ///     q_s.(eta + eta') / 2 <= A,   q_s = -h sum G^T F                                             (4)
 /// After the step A is at most U1; the rest is dissipated: by yielding, with springs that break, and where velocities
 /// were imposed between two steps. In other steps (4) follows from (2).
 #pragma once
+#include "constants.hpp"
 #include "joint_law.hpp"
 #include "spring_law.hpp"
 #include <Eigen/Core>
@@ -55,6 +68,19 @@ struct ModalStep {
 	const Vec6 &before, &decay; ///< eta, x
 };
 
+/// Whether a step may miss more than kinkShare of the energy at the kinks of a law: (5). phase: omega h; stretch: d;
+/// limit: y.
+inline bool missesKinks(double phase, double stretch, double limit)
+{
+	const double squared = phase * phase, d = stretch * stretch;
+	return d * squared > 4 * kinkShare * (limit * limit * squared + d);
+}
+
+/// Moves a spring that was explicit up to the placement before, where step.from is its stretch, to its half step, which
+/// becomes step.from. change: h times the rate of the stretch, in the axes of A [m]; energy: added to, that of the
+/// explicit spring at the half step [J]. Returns what it dissipates on the way.
+double enterStep(SpringLaw& law, SpringStep& step, const Vec3& change, double& energy);
+
 /// Springs of a joint in a step.
 class SpringSteps {
 	std::unique_ptr<SpringLaw> law;
@@ -77,7 +103,7 @@ class SpringSteps {
 public:
 	std::vector<SpringStep> springs;
 	double account = 0; ///< A [J]
-	double dissipated = 0; ///< by the springs in the step, after finish() [J]
+	double dissipated = 0; ///< by the springs before the step; after finish() also in the step [J]
 
 	SpringSteps() = default;
 	/// Springs with the members of SpringStep up to `rates`, and the forces of the last step.
@@ -87,8 +113,13 @@ public:
 	double startEnergy() const;
 	/// Tangent stiffness at z0 over the initial one, in the mean over springs and directions. [-]
 	double tangent(const JointStiffness& stiffness) const;
-	/// By how much the energy at z1 exceeds that of explicit springs at the half step. after: eta' [J]
-	double explicitDefect(double h, const Vec6& after) const;
+	/// Energies of springs that are explicit from the next step on.
+	struct Leaving {
+		double stored; ///< at the placement of this step, where their forces were F, at most A's part [J]
+		double dissipated; ///< what A has beyond explicit springs [J]
+	};
+	/// After finish(). after: eta'
+	Leaving leave(double h, const Vec6& after) const;
 	/// Impulse of the forces of the last step, without q_a.
 	Vec6 warmStart(double h) const;
 	/// Impulse of springs and dashpots without q_a: eta' - E by (3), (4). free: E; after: an estimate of eta'.

@@ -79,6 +79,14 @@ double WallLaw::slopeOf(std::size_t i) const
 	return (knots[i].force - knots[i - 1].force) / (knots[i].stretch - knots[i - 1].stretch);
 }
 
+double WallLaw::steepestFall() const
+{
+	double steepest = 0;
+	for (std::size_t i = 1; i < knots.size(); ++i)
+		steepest = std::max(steepest, -slopeOf(i));
+	return steepest;
+}
+
 double WallLaw::force(double x) const
 {
 	const size_t i = segment(x);

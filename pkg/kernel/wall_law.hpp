@@ -120,6 +120,7 @@ public:
 	bool isValid() const { return knots.size() > 1; }
 	double stiffness() const { return cycles.stiffness; } ///< k [N/m]
 	double force(double stretch) const; ///< B [N]
+	double steepestFall() const; ///< of B, >= 0 [N/m]
 	/// Whether no strength is left: a side has passed the last point of a backbone that ends without force.
 	bool isSpent(const WallHistory& history) const
 	{

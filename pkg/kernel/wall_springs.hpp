@@ -8,12 +8,7 @@
 
 namespace timber {
 
-/// Stretches, forces and new histories of a wall's unbroken springs. The entries of broken springs stay as they are.
-/// axis: unit vector in the frame of A; histories: one of each spring.
-JointForce wallForces(const WallLaw& law, const JointPlacement& placement, const Vec3& axis,
-        const JointSprings& springs, std::vector<WallHistory>& histories);
-
-/// The springs in a step that does not resolve them. law and histories are not copied.
+/// The springs of a wall. law and histories, one of each spring, are not copied.
 class WallSprings : public SpringLaw {
 	const WallLaw& law;
 	Vec3 axis;
@@ -22,14 +17,12 @@ class WallSprings : public SpringLaw {
 	SpringState along(const WallForce& force) const;
 
 public:
-	/// axis: as of wallForces()
+	/// axis: unit vector in the frame of A
 	WallSprings(const WallLaw& law_, const Vec3& axis_, std::vector<WallHistory>& histories_);
-	SpringState trial(size_t spring, const Vec3& from, const Vec3& to) const override;
-	SpringState commit(size_t spring, const Vec3& from, const Vec3& to) override;
+	SpringState trial(size_t spring, const Vec3& to) const override;
+	SpringState commit(size_t spring, const Vec3& to) override;
+	bool isSpent(size_t spring) const override { return law.isSpent(histories[spring]); }
+	double steepestFall() const override { return law.steepestFall(); }
 };
-
-/// Springs without strength, in their order. They have no force and no energy left.
-std::vector<SpringBreak> wallBreaks(
-        const WallLaw& law, const JointSprings& springs, const std::vector<WallHistory>& histories);
 
 } // namespace timber

@@ -395,11 +395,12 @@ struct Joint {
 	SlipHistories histories() { return { plastic, largest }; }
 	JointForce place(const Vec3& distance)
 	{
-		return slipForces(law, { axesA, axesB, distance }, axis, springs(), histories());
+		SlipSprings laws(law, axis, histories());
+		return yieldingForces(laws, { axesA, axesB, distance }, axis, springs());
 	}
 	std::vector<SpringBreak> breaks()
 	{
-		return slipBreaks(law, { axesA, axesB, Vec3::Zero() }, Vec3::UnitZ(), springs(), histories());
+		return spentSprings(SlipSprings(law, axis, histories()), { k, k }, axesA, Vec3::UnitZ(), springs());
 	}
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Stiff joints in the solver: energy of springs that yield, and the strength of those that break, at any step.
 #include <gtest/gtest.h>
+#include <cmath>
 #include <kernel/contact_solver.hpp>
 #include <kernel/slip_law.hpp>
 
@@ -205,4 +206,38 @@ TEST(StiffJoints, TransmitAtMostTheirStrength)
 						        << k << " " << h;
 					}
 				}
+}
+
+/// A body on yielding springs leaves until they break, by 0.5 to 4 mm a step. Where the step resolves the fall of the
+/// force, the springs dissipate the area under their backbone; the softening is 30 mm long.
+TEST(StiffJoints, SoftenWithinTheStep)
+{
+	for (const double speed : { 5., 10., 20. })
+		for (const double h : { 1e-4, 2e-4 }) {
+			const double k = 1e5, F = 40;
+			Row row { 0.4, k, F, 0, h, Law::Slip, 1 };
+			row.points = { { 0, 0.05, 0 }, { 0, -0.05, 0 }, { 0, 0, 0.05 }, { 0, 0, -0.05 } };
+			row.start();
+			row.bodies[1].newVelocity = Vec3(speed, 0, 0);
+			row.positions[1].x() += h / 2 * speed; // at rest in the middle of the step before
+			const double before = row.total(),
+			             area = 4 * (F * F / 2 / k + 1.1 * F * (0.01 - F / k) + 0.6 * F * 0.03);
+			for (int n = 0; n < 2000 && !row.joints[0].broken[0]; ++n)
+				row.step();
+			EXPECT_TRUE(row.joints[0].broken[0]);
+			EXPECT_NEAR(row.total(), before, 1e-11 * before) << speed << " " << h;
+			// The end of the fall is within the last step: 4 mm of 30
+			EXPECT_NEAR(row.springs, area, std::pow(speed * h / 0.03, 2) * area) << speed << " " << h;
+		}
+}
+
+/// What (5) of spring_step.hpp says is the error of the trapezoidal rule over a kink, for steps on both sides of it.
+TEST(StiffJoints, KinksThatAStepMisses)
+{
+	const double y = 1e-3, k = 1e5;
+	for (const double phase : { 0.01, 0.02, 0.1, 0.5, 1. })
+		for (const double d : { 0.01 * y, 0.1 * y, y, 10 * y }) {
+			const double error = k * d * d / 8, input = k * y * y / 2 + k * d * d / (2 * phase * phase);
+			EXPECT_EQ(missesKinks(phase, d, y), error > kinkShare * input) << phase << " " << d / y;
+		}
 }
