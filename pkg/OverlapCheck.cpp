@@ -36,7 +36,7 @@ namespace {
 		        timber::bodyOverlap(a, b, { b1.state->pos, b1.state->ori }, { b2.state->pos, b2.state->ori }));
 		if (const auto phys = dynamic_cast<const ManifoldPhys*>(I.phys.get()))
 			for (const timber::PointRecord& r : phys->records)
-				pair.carried = math::max(pair.carried, Real(r.overlap));
+				pair.carried = math::max(pair.carried, Real(r.overlap + r.crushed));
 		return pair;
 	}
 
