@@ -179,7 +179,6 @@ void JointEngine::computeForce(size_t index)
 	const timber::PackedJoint& joint = packed->joints[index];
 	timber::JointForce& total = jointForces[index];
 	if (joint.isActive && !(hasBody(joint.bodyA) && hasBody(joint.bodyB))) joints[index]->breakAll();
-	if (joint.isActive && joint.yields && !joint.isStiff && isFast(index)) joints[index]->enterSolver();
 	if (!joint.isActive || joint.isStiff) total = {};
 	else {
 		const timber::JointForce before = total;
