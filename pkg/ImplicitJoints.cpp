@@ -43,26 +43,17 @@ namespace {
 		const vector<Vector3r> forces = joint.springForces();
 		std::unique_ptr<timber::SpringLaw> law = joint.springLaw();
 		std::vector<timber::SpringStep> steps;
-		Real account = joint.storedEnergy, dissipated = 0;
 		for (size_t k = 0; k < joint.broken.size(); ++k) {
 			if (joint.broken[k]) continue;
-			const Vector3r arm2 = s2.ori * joint.anchors2[k], arm1 = s2.pos + arm2 - s1.pos,
-			               end = toA * arm1, stretch = end - joint.anchors1[k], force = toA * forces[k];
+			const Vector3r end = toA * (s2.pos + s2.ori * joint.anchors2[k] - s1.pos),
+			               stretch = end - joint.anchors1[k], force = toA * forces[k];
 			timber::SpringStep step { k, stretch, stretch, Vector3r::Zero(), joint.modes.rates(end),
 				force };
-			if (joint.entersSolver()) {
-				const Vector3r change = scene.dt
-				        * (toA
-				                * timber::relativeVelocity<double>(
-				                        arm1, arm2, s1.vel, s1.angVel, s2.vel, s2.angVel));
-				step.from = toA * joint.stretches[k];
-				dissipated += timber::enterStep(*law, step, change, account);
-			} else if (joint.isStiff()) step.from = joint.halfStretches[k];
+			if (joint.isStiff()) step.from = joint.halfStretches[k];
 			else step.applied = force;
 			steps.push_back(std::move(step));
 		}
-		timber::SpringSteps result(std::move(law), std::move(steps), account - dissipated, scene.dt);
-		result.dissipated = dissipated;
+		timber::SpringSteps result(std::move(law), std::move(steps), joint.storedEnergy, scene.dt);
 		if (!joint.isStiff()) result.account = result.startEnergy();
 		return result;
 	}
@@ -100,15 +91,12 @@ namespace {
 		return total;
 	}
 
-	/// Whether the joint stays in the solver: the step does not resolve it, or it opens fast.
+	/// Whether the joint stays in the solver: the step does not resolve it, or a spring breaks.
 	bool stays(const timber::ModalConstraint& c, const TimberJoint& joint)
 	{
-		if (joint.modes.isStiff(c.h / timber::softPhase)) return true;
-		const auto isFast = [&](const timber::SpringStep& s) {
-			const Real change = c.h / timber::softPhase * joint.alongAxis(s.rates * c.after).norm();
-			return s.breaks || (joint.yields() && joint.missesKinks(change, c.h));
-		};
-		return std::any_of(c.springs.springs.begin(), c.springs.springs.end(), isFast);
+		return joint.modes.isStiff(c.h / timber::softPhase)
+		        || std::any_of(c.springs.springs.begin(), c.springs.springs.end(),
+		                [](const timber::SpringStep& s) { return s.breaks; });
 	}
 
 	/// Energies of a stiff joint after the step. One that does not stay goes back to JointEngine, with the energy of

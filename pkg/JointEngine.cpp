@@ -141,39 +141,6 @@ void JointEngine::packJoints()
 	packed->isCurrent = true;
 }
 
-/// Whether explicit springs miss a kink of the law in this step, and the contact solver can move them.
-bool JointEngine::isFast(size_t index) const
-{
-	TimberJoint& joint = *joints[index];
-	if (!isSolved || joint.modes.state.springs == 0) return false;
-	const State &s1 = *bodyAt(*scene, joint.id1)->state, &s2 = *bodyAt(*scene, joint.id2)->state;
-	if (!isFree(s1) && !isFree(s2)) return false;
-	const timber::JointPlacement now = placement(packed->joints[index]);
-	const auto end2 = [&](size_t k) { return Vector3r(now.axesB * joint.anchors2[k]); };
-	const auto change = [&](size_t k) { // of the stretch since the last placement
-		const Vector3r rate = timber::relativeVelocity<double>(
-		        now.distance + end2(k), end2(k), s1.vel, s1.angVel, s2.vel, s2.angVel);
-		return joint.alongAxis(scene->dt * (now.axesA.transpose() * rate));
-	};
-	Real largest = 0;
-	for (size_t k = 0; k < joint.broken.size(); ++k)
-		if (!joint.broken[k]) largest = math::max(largest, change(k).squaredNorm());
-	if (!joint.missesKinks(math::sqrt(largest), scene->dt)) return false;
-	const std::unique_ptr<timber::SpringLaw> law = joint.springLaw();
-	law->keepsForce = false;
-	Real error = 0, size = 0; // of the trapezoidal rule
-	for (size_t k = 0; k < joint.broken.size(); ++k) {
-		if (joint.broken[k]) continue;
-		const Vector3r moved = change(k),
-		               stretch = now.axesA.transpose() * (now.distance + end2(k)) - joint.anchors1[k];
-		const timber::SpringState before = law->trial(k, now.axesA.transpose() * joint.stretches[k]),
-		                          after = law->trial(k, stretch);
-		error += after.energy + after.dissipated - before.energy - (before.force + after.force).dot(moved) / 2;
-		size += after.energy + after.dissipated;
-	}
-	return math::abs(error) > timber::kinkShare * timber::kinkShare * size;
-}
-
 void JointEngine::computeForce(size_t index)
 {
 	const timber::PackedJoint& joint = packed->joints[index];

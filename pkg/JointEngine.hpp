@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Owner of the joints' springs: their forces, breaks and energies. Brittle springs and the rule of breaking:
 /// kernel/joint_law.hpp. Yielding springs: kernel/slip_law.hpp, kernel/wall_springs.hpp. Joints that a step does not
-/// resolve, or that open fast, go to the contact solver (kernel/spring_step.hpp).
+/// resolve go to the contact solver (kernel/spring_step.hpp).
 #pragma once
 #include <TimberJoint.hpp>
 #include <bodies.hpp>
@@ -48,7 +48,6 @@ class JointEngine : public GlobalEngine {
 		const Placement &a = bodies[joint.bodyA], &b = bodies[joint.bodyB];
 		return { a.axes, b.axes, b.position - a.position };
 	}
-	bool isFast(size_t joint) const;
 	void computeForce(size_t joint);
 	Real createdBetween(
 	        const timber::PackedJoint&, const timber::JointForce& before, const timber::JointForce& now) const;

@@ -154,15 +154,8 @@ std::vector<timber::SpringBreak> TimberJoint::spentSprings(const Matrix3r& axes1
 	return isWall ? spent(wallSprings()) : spent(slipSprings());
 }
 
-void TimberJoint::enterSolver()
-{
-	stiffen();
-	enters = true;
-}
-
 void TimberJoint::stiffen()
 {
-	enters = false;
 	storeSprings();
 	halfStretches.resize(anchors1.size(), Vector3r::Zero());
 	if (packed) packed->joints[index].isStiff = true;

@@ -34,7 +34,6 @@ class TimberJoint : public Serializable {
 	bool isRead = false; ///< attributes were read or set: those set later decide about the modes
 	bool isSlip = false; ///< law == "slip": a comparison of strings for each joint and step takes 2 % of a step
 	bool isWall = false; ///< law == "wall"
-	bool enters = false; ///< see enterSolver()
 	timber::SlipLaw slip; ///< of a spring, from the attributes
 	timber::WallLaw wall; ///< likewise
 	/// Of the engine: they have the springs' stretches and forces of the last step. Null: the attributes have them,
@@ -105,12 +104,6 @@ public:
 	timber::JointForce yield(const timber::JointPlacement&);
 	/// Springs that yield and have no strength left. axes1: rotation matrix of body 1
 	std::vector<timber::SpringBreak> spentSprings(const Matrix3r& axes1);
-	/// Whether explicit springs that yield may miss kinks of their law. change: of their stretches in a step of h
-	/// [m, s]
-	bool missesKinks(Real change, Real h) const
-	{
-		return timber::missesKinks(h * modes.frequencies[5], change, strength / kn);
-	}
 	/// Law of a wall with a share of its forces.
 	timber::WallCycles wallCycles(Real share) const;
 	boost::python::list pyWallHistories() const;
@@ -123,10 +116,6 @@ public:
 	bool isStiff() const { return !halfStretches.empty(); }
 	/// From this step on the contact solver moves the springs.
 	void stiffen();
-	/// The same where JointEngine leaves out the step: the springs' state is that of the last placement.
-	void enterSolver();
-	/// Whether enterSolver() was called in this step.
-	bool entersSolver() const { return enters; }
 	/// From the next step on JointEngine moves the springs.
 	void soften();
 

@@ -230,10 +230,6 @@ constexpr double softPhase = 0.8;
 /// chain at h omega = 30 grow by 17 % in 100 steps; smaller: more sweeps.
 constexpr double stiffToleranceShare = 0.1;
 
-/// Energy that a step may miss at a kink of a yielding joint's law, over that of the body and the springs. [-]
-/// Larger: the energy balance of joints that open fast is less exact; smaller: more joints take part in the sweeps.
-constexpr double kinkShare = 1e-4;
-
 /// Newton's method of a stiff joint ends when the residual of its modal velocities is this share of them. [-]
 constexpr double springTolerance = 1e-13;
 /// Its largest number of iterations; linear springs need one, springs that yield two to six. [-]

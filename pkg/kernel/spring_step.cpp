@@ -37,15 +37,6 @@ namespace {
 
 } // namespace
 
-double enterStep(SpringLaw& law, SpringStep& step, const Vec3& change, double& energy)
-{
-	const SpringState before = law.trial(step.spring, step.from);
-	step.from = step.placed - change / 2;
-	step.force = before.force;
-	energy += before.energy + before.force.dot(change) / 2;
-	return law.commit(step.spring, step.from).dissipated;
-}
-
 SpringSteps::SpringSteps(std::unique_ptr<SpringLaw> l, std::vector<SpringStep> steps, double stored, double h)
         : law(std::move(l))
         , states(steps.size())

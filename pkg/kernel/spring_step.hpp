@@ -22,14 +22,6 @@
 ///     h2 k_f sum |G|2 < 1,
 /// and keeps its force to the end of the step otherwise.
 ///
-/// Joints that the step resolves are explicit but for steps that may miss kinks of the law. At a kink where the
-/// stiffness changes by k explicit springs that stretch by d in a step have an error of up to k d2 / 8. A body that
-/// reaches the elastic limit y has brought at least k y2 / 2 and the kinetic energy k d2 / (2 (omega h)2): the error is
-///     1 / (4 ((y / d)2 + 1 / (omega h)2))                                                       (5)
-/// of it at most. Where (5) exceeds kinkShare and the trapezoidal rule is not exact in a step, the joint enters the
-/// solver: z0 is the half step, A the energy of explicit springs there. That of z0 is larger by k d2 / 8, which plastic
-/// work pays. It leaves when (5) does not hold any more, with the energy that explicit springs have, at most A.
-///
 /// Account A: the work that the bodies have done on the springs as far as it is neither returned nor dissipated. The
 /// springs return at most A,
 ///     q_s.(eta + eta') / 2 <= A,   q_s = -h sum G^T F                                             (4)
@@ -67,19 +59,6 @@ struct ModalStep {
 	double h; ///< [s]
 	const Vec6 &before, &decay; ///< eta, x
 };
-
-/// Whether a step may miss more than kinkShare of the energy at the kinks of a law: (5). phase: omega h; stretch: d;
-/// limit: y.
-inline bool missesKinks(double phase, double stretch, double limit)
-{
-	const double squared = phase * phase, d = stretch * stretch;
-	return d * squared > 4 * kinkShare * (limit * limit * squared + d);
-}
-
-/// Moves a spring that was explicit up to the placement before, where step.from is its stretch, to its half step, which
-/// becomes step.from. change: h times the rate of the stretch, in the axes of A [m]; energy: added to, that of the
-/// explicit spring at the half step [J]. Returns what it dissipates on the way.
-double enterStep(SpringLaw& law, SpringStep& step, const Vec3& change, double& energy);
 
 /// Springs of a joint in a step.
 class SpringSteps {

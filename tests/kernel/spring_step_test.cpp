@@ -230,14 +230,3 @@ TEST(StiffJoints, SoftenWithinTheStep)
 			EXPECT_NEAR(row.springs, area, std::pow(speed * h / 0.03, 2) * area) << speed << " " << h;
 		}
 }
-
-/// What (5) of spring_step.hpp says is the error of the trapezoidal rule over a kink, for steps on both sides of it.
-TEST(StiffJoints, KinksThatAStepMisses)
-{
-	const double y = 1e-3, k = 1e5;
-	for (const double phase : { 0.01, 0.02, 0.1, 0.5, 1. })
-		for (const double d : { 0.01 * y, 0.1 * y, y, 10 * y }) {
-			const double error = k * d * d / 8, input = k * y * y / 2 + k * d * d / (2 * phase * phase);
-			EXPECT_EQ(missesKinks(phase, d, y), error > kinkShare * input) << phase << " " << d / y;
-		}
-}
