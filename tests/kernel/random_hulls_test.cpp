@@ -16,16 +16,6 @@ namespace {
 using Points = std::vector<Vec3>;
 using LongVec3 = Eigen::Matrix<long double, 3, 1>;
 
-double sizeOf(const Points& points)
-{
-	Vec3 low = points[0], high = low;
-	for (const Vec3& p : points) {
-		low = low.cwiseMin(p);
-		high = high.cwiseMax(p);
-	}
-	return (high - low).maxCoeff();
-}
-
 /// Outer sides of all planes through three points that have no point outside, by trial: independent of the kernel.
 std::vector<HalfSpace> supportingPlanes(const Points& points)
 {
