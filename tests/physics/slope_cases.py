@@ -62,7 +62,7 @@ def contact_energy():
     total = 0.0
     for contact in O.interactions:
         law = contact.phys
-        for _, normal, shear, _ in law.points:
+        for _, normal, shear, *_ in law.points:
             overlap = (normal / (4 / 3 * law.modulus * np.sqrt(law.radius))) ** (2 / 3)
             total += 0.4 * normal * overlap
             if normal > 0:
