@@ -91,16 +91,8 @@ namespace {
 		return total;
 	}
 
-	/// Whether the joint stays in the solver: the step does not resolve it, or a spring breaks.
-	bool stays(const timber::ModalConstraint& c, const TimberJoint& joint)
-	{
-		return joint.modes.isStiff(c.h / timber::softPhase)
-		        || std::any_of(c.springs.springs.begin(), c.springs.springs.end(),
-		                [](const timber::SpringStep& s) { return s.breaks; });
-	}
-
-	/// Energies of a stiff joint after the step. One that does not stay goes back to JointEngine, with the energy of
-	/// explicit springs; it counts what they have beyond the account.
+	/// Energies of a stiff joint after the step. One that the step resolves, and of which no spring breaks, goes back to
+	/// JointEngine, with the energy of explicit springs; it counts what they have beyond the account.
 	void storeEnergies(const timber::ModalConstraint& c, const ImplicitJoint& implicit, timber::JointForce& total,
 	        ImplicitJointResult& result)
 	{
@@ -110,7 +102,7 @@ namespace {
 		Real& dissipated = joint.yields() ? result.yielded : breaks ? result.released : result.dashpots;
 		dissipated += c.springs.dissipated;
 		joint.storedEnergy = c.springs.account;
-		if (!stays(c, joint)) {
+		if (!breaks && !joint.modes.isStiff(c.h / timber::softPhase)) {
 			const timber::SpringSteps::Leaving left = c.springs.leave(c.h, c.after);
 			dissipated += left.dissipated;
 			result.stored += total.energy = left.stored;
@@ -169,7 +161,7 @@ void prepareJoint(timber::ContactSolver& solver, size_t k, const ImplicitJoint& 
 	TimberJoint& joint = *implicit.joint;
 	timber::SpringSteps springs;
 	if (implicit.isStiff) springs = springSteps(joint, scene);
-	const Real tangent = implicit.isStiff ? springs.tangent(joint.stiffness()) : implicit.tangent;
+	const Real tangent = implicit.isStiff && joint.isDamped() ? springs.tangent() : implicit.tangent;
 	timber::ModalConstraint& c
 	        = solver.prepareJoint(k, joint.modes, axesOf(scene, joint.id1), joint.damping(tangent));
 	if (implicit.isStiff) timber::addSprings(c, std::move(springs));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <ContactForces.hpp>
+#include <JointEngine.hpp>
 #include <kernel/threads.hpp>
 #include <set>
 
@@ -260,8 +260,6 @@ void JointEngine::addSprings(const Scene& current, std::vector<timber::PointSpri
 void JointEngine::action()
 {
 	packJoints();
-	const ContactForces* solver = findEngine<ContactForces>(*scene);
-	isSolved = solver && solver->sweeps > 0;
 	collectBodies();
 	breakReplaced();
 	computeForces();

@@ -35,7 +35,6 @@ class JointEngine : public GlobalEngine {
 	shared_ptr<timber::PackedJoints> packed { new timber::PackedJoints };
 	std::vector<timber::JointForce> jointForces; ///< of the joints' unbroken springs in this step
 	std::vector<Real> errors; ///< of the joints in this step, see `created` [J]
-	bool isSolved = false; ///< ContactForces moves joints that this engine hands over
 	BodyForces sums; ///< of the joints
 
 	bool hasBody(Body::id_t) const;

@@ -98,8 +98,6 @@ public:
 	std::vector<timber::BackbonePoint> backbone() const;
 	/// Of springs that yield along the normal only (ks = 0), else zero. [-]
 	Vector3r axis() const { return ks == 0 ? normal : Vector3r::Zero(); }
-	/// The part of a stretch that counts. v: in the frame of body 1
-	Vector3r alongAxis(const Vector3r& v) const { return ks == 0 ? Vector3r(normal.dot(v) * normal) : v; }
 	/// Forces and new histories of springs that yield.
 	timber::JointForce yield(const timber::JointPlacement&);
 	/// Springs that yield and have no strength left. axes1: rotation matrix of body 1

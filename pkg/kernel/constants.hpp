@@ -128,13 +128,13 @@ constexpr double firstSweepShare = 1e-8;
 constexpr double sweepReduction = 0.1;
 
 /// Smallest convergence threshold of the sweeps after the first one, as a share of the points' impulses. [-] An island
-/// at rest is solved to a share of its own residual changes, but not beyond this. 1e-3: braces of a loaded house at rest turn to and fro by 1e-3
-/// rad/s; 1e-6: by 1e-6 rad/s; 1e-7: more sweeps at rest, and no less motion.
+/// at rest is solved to a share of its own residual changes, but not beyond this. 1e-3: braces of a loaded house at rest
+/// turn to and fro by 1e-3 rad/s; 1e-6: by 1e-6 rad/s; 1e-7: more sweeps at rest, and no less motion.
 constexpr double restTolerance = 1e-6;
 
 /// Smallest convergence threshold as a share of the island's momenta. [-] Where a loose body has just touched, all
-/// impulses are zero after the first sweep and give no threshold. 0: sweeps to the limit at changes of 1e-40 J; larger:
-/// error of the impulses of soft contacts.
+/// impulses are zero after the first sweep and give no threshold. 1e-8: two steps of a pile of the stress set do not
+/// converge, at changes of 1e-19 J; larger: error of the impulses of soft contacts.
 constexpr double roundingTolerance = 1e-7;
 
 /// Decrease of the convergence threshold during the sweeps of a step from which on they go on with the new one. [-]

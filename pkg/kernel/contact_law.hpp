@@ -164,31 +164,28 @@ enum class NormalForm { Closed, Increment };
 /// Plastic part of a step: springs whose force exceeds the strength. total: overlap without the plastic one and the
 /// excess [m], in-out.
 template <class Law, class Number>
-void crush(const Law& law, const PairProperties& pair, NormalForm form, PointSprings<Number>& s, Number& total)
+void crush(const Law& law, const PairProperties& pair, PointSprings<Number>& s, Number& total)
 {
-	const Number none = 0., strength = pair.strength.force(s.crushed);
-	const auto yields = s.normalForce > strength;
-	if (form == NormalForm::Closed)
-		s.overlap = elasticOverlap(law, pair.strength, s.crushed, total, pair.overlapLimit);
-	else s.overlap -= select(yields, Number((s.normalForce - strength) / s.stiffness), none);
-	const Number plastic = select(yields, Number(total - s.overlap), none);
+	const auto yields = s.normalForce > pair.strength.force(s.crushed);
+	s.overlap = elasticOverlap(law, pair.strength, s.crushed, total, pair.overlapLimit);
+	const Number plastic = select(yields, Number(total - s.overlap), Number(0.));
 	s.crushed += plastic;
 	total -= plastic;
 	s.stiffness = law.stiffness(s.overlap);
-	s.normalForce = form == NormalForm::Closed ? law.force(s.overlap)
-	                                           : select(yields, pair.strength.force(s.crushed), s.normalForce);
+	s.normalForce = law.force(s.overlap);
 }
 
 /// Elastic forces of one point for its new normal, overlap and displacement (Eqs. 15, 16, 19, 20).
 /// The tangential spring keeps its force while n grows and loses force with K_s while n shrinks, so it never creates
 /// energy. It slides in storeForces(), once the total normal force is known.
-/// What the strength does not bear becomes plastic overlap.
+/// What the strength does not bear becomes plastic overlap. The increment form has no strength.
 /// in: law, pair, point, motion, length h of the step [s]; in-out: springs (a new point has only its excess).
 template <class Law, class Point, class Number>
 [[gnu::always_inline]] inline void elasticStep(const Law& law, const PairProperties& pair, const Point& point,
         const RelativeMotion<Number>& motion, double h, NormalForm form, PointSprings<Number>& springs)
 {
 	assert(h > 0 && pair.shearRatio > 0 && pair.overlapLimit >= 0);
+	assert(form == NormalForm::Closed || !pair.strength.isLimited());
 	const Number none = 0., limit = pair.overlapLimit;
 	const Number above = max(none, Number(point.overlap - springs.crushed));
 	springs.excess = min(springs.excess, above);
@@ -202,7 +199,7 @@ template <class Law, class Point, class Number>
 		springs.normalForce = select(springs.overlap > none, max(none, sum), none);
 	}
 	if (pair.strength.isLimited() && any(springs.normalForce > pair.strength.force(springs.crushed)))
-		crush(law, pair, form, springs, total);
+		crush(law, pair, springs, total);
 	springs.energy = law.energy(springs.overlap) + (total - springs.overlap) * springs.normalForce;
 
 	springs.shearForce = rotatedShear<Number>(springs.shearForce, motion.spin * h, point.normal);

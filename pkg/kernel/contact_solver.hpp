@@ -54,8 +54,9 @@
 /// end at their limit with impulses that obey (3) to (6) point by point, and ContactForces counts the step.
 ///
 /// Accelerated sweeps. Where light members are pressed between heavy ones plain sweeps converge slowly, and a small
-/// change in the last one does not mean a small error: points return more than (5) admits. A step that takes more than plainSweeps, or in which points have returned too much after checkedSweeps or more, goes on
-/// with sweeps over all pairs and joints. A step along the conjugate direction G precedes each of them:
+/// change in the last one does not mean a small error: points return more than (5) admits. A step that takes more than
+/// plainSweeps, or in which points have returned too much after checkedSweeps or more, goes on with sweeps over all
+/// pairs and joints. A step along the conjugate direction G precedes each of them:
 ///     Z <- Z' + gamma G,   G <- gamma G + (Z' - Z),   gamma = |Z' - Z|^2 / |Z' - Z|^2 of the sweep before    (9)
 /// with all impulses and velocities Z before, Z' after a sweep; gamma >= 1 starts anew with G = Z' - Z and no step
 /// (nonlinear conjugate gradients after Fletcher and Reeves; Silcowitz, Niebe and Erleben, Visual Comput. 26 (2010),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Functions of the C library whose last bits depend on the processor, from operations that IEEE 754 fixes: + - * / and
-/// sqrt. The results are the same on every processor, within 1 ulp of the exact ones (tests/kernel/portable_math_test.cpp).
+/// sqrt. The results are the same on every processor, within 1 ulp of the exact ones
+/// (tests/kernel/portable_math_test.cpp).
 #pragma once
 
 namespace timber {

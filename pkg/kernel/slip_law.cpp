@@ -192,10 +192,13 @@ SpringState SlipSprings::projected(const SlipForce& force, const Mat3& tangent) 
 
 SpringState SlipSprings::trial(size_t spring, const Vec3& to) const
 {
+	const SlipHistory before { histories.plastic[spring], histories.largest[spring] };
+	const Vec3 stretch = onAxis(to);
 	Mat3 tangent;
-	const SlipForce force = slipForce(
-	        law, { histories.plastic[spring], histories.largest[spring] }, onAxis(to), keepsForce, tangent);
-	return projected(force, tangent);
+	const SlipForce force = slipForce(law, before, stretch, keepsForce, tangent);
+	SpringState state = projected(force, tangent);
+	state.share = tangentAlong(law, before, force.history, stretch.norm());
+	return state;
 }
 
 SpringState SlipSprings::commit(size_t spring, const Vec3& to)

@@ -15,7 +15,7 @@ struct SpringState {
 	double energy = 0; ///< U: what it could return [J]
 	double dissipated = 0; ///< D >= 0, on the straight path from the stretch before the step [J]
 	bool breaks = false; ///< exceeds its strength or ultimate stretch
-	/// Tangent stiffness along the stretch over the initial one, 0 to 1, after commit() [-]
+	/// Tangent stiffness along the stretch over the initial one, 0 to 1, of the line that the path has reached [-]
 	double share = 1;
 };
 

@@ -55,12 +55,12 @@ SpringSteps::SpringSteps(std::unique_ptr<SpringLaw> l, std::vector<SpringStep> s
 	law->keepsForce = h * h * law->steepestFall() * rates >= 1;
 }
 
-double SpringSteps::tangent(const JointStiffness& stiffness) const
+double SpringSteps::tangent() const
 {
 	double sum = 0;
 	for (const SpringStep& s : springs)
-		sum += s.start.tangent.trace();
-	return sum / (double(springs.size()) * (stiffness.normal + 2 * stiffness.shear));
+		sum += law->trial(s.spring, s.placed).share;
+	return sum / double(springs.size());
 }
 
 double SpringSteps::startEnergy() const

@@ -90,8 +90,8 @@ public:
 	bool empty() const { return springs.empty(); }
 	/// Sum of the energies at z0. [J]
 	double startEnergy() const;
-	/// Tangent stiffness at z0 over the initial one, in the mean over springs and directions. [-]
-	double tangent(const JointStiffness& stiffness) const;
+	/// Tangent stiffness of the line on which the springs move from z0 to d over the initial one, in the mean. [-]
+	double tangent() const;
 	/// Energies of springs that are explicit from the next step on.
 	struct Leaving {
 		double stored; ///< at the placement of this step, where their forces were F, at most A's part [J]

@@ -21,6 +21,7 @@ SpringState WallSprings::along(const WallForce& force) const
 	state.tangent = std::max(0., force.tangent) * axis * axis.transpose();
 	state.energy = force.energy;
 	state.dissipated = force.dissipated;
+	state.share = std::clamp(force.tangent / law.stiffness(), 0., 1.);
 	return state;
 }
 
@@ -35,7 +36,6 @@ SpringState WallSprings::commit(size_t spring, const Vec3& to)
 	const WallForce force = law.advance(histories[spring], axis.dot(to));
 	histories[spring] = force.history;
 	SpringState state = along(force);
-	state.share = std::clamp(force.tangent / law.stiffness(), 0., 1.);
 	state.breaks = isSpent(spring);
 	return state;
 }

@@ -33,7 +33,6 @@ double overlapAt(double force) { return std::cbrt(std::pow(force / hertz.force(1
 /// A point that is pressed together and released at constant velocity, without dashpot.
 struct Path {
 	PairProperties pair { mass, 0, 0.4, 1, 0 };
-	NormalForm form = NormalForm::Closed;
 	FeatureId id = vertex;
 	std::vector<PointRecord> records;
 	double at = 0, released = 0;
@@ -48,8 +47,7 @@ struct Path {
 			std::vector<ContactPoint> points;
 			if (at > 0) points.push_back({ id, {}, none, Vec3::UnitZ(), at });
 			released += elasticPair(hertz,
-			        { pair, { none, none, none }, { none, { 0, 0, -way / h }, none }, h, form }, points,
-			        records);
+			        { pair, { none, none, none }, { none, { 0, 0, -way / h }, none }, h }, points, records);
 		}
 	}
 	double force() const { return records.at(0).normalForce; }
@@ -190,20 +188,6 @@ TEST(Crushing, FollowsThePath)
 			p.to(0.5 * yield, 20);
 			EXPECT_NEAR(p.force(), hertz.force(0.5 * yield), 1e-9 * p.force());
 		}
-}
-
-/// The increment form has the same limit.
-TEST(Crushing, LimitsTheIncrementForm)
-{
-	Path p;
-	p.form = NormalForm::Increment;
-	p.pair.strength = { 2e4, 0, 0 };
-	const double yield = overlapAt(2e4);
-	p.to(5 * yield, 1000);
-	EXPECT_EQ(p.force(), 2e4);
-	EXPECT_NEAR(p.crushed(), 4 * yield, 0.01 * yield); // error of the increments
-	p.to(4.5 * yield, 1000);
-	EXPECT_NEAR(p.force(), hertz.force(0.5 * yield), 0.02 * 2e4);
 }
 
 /// A point takes the place of another one: it takes over the dent, returns no more energy than that had, and its force

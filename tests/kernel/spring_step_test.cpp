@@ -230,3 +230,21 @@ TEST(StiffJoints, SoftenWithinTheStep)
 			EXPECT_NEAR(row.springs, area, std::pow(speed * h / 0.03, 2) * area) << speed << " " << h;
 		}
 }
+
+/// Dashpots have the stiffness of the line on which the springs move: of a constant force none, while it unloads all.
+TEST(StiffJoints, TangentOfTheMovement)
+{
+	const double k = 1e6, F = 1e3, y = F / k;
+	std::vector<Vec3> plastic(1, Vec3::Zero());
+	std::vector<double> largest(1, 0);
+	const SlipLaw slip { k, 1, { { y, F }, { 100 * y, F }, { 101 * y, 0 } } };
+	const auto law = [&] {
+		return std::make_unique<SlipSprings>(slip, Vec3(Vec3::Zero()), SlipHistories { plastic, largest });
+	};
+	law()->commit(0, Vec3(3 * y, 0, 0));
+	for (const auto& [placed, tangent] : { std::pair(3.1 * y, 0.), std::pair(2.9 * y, 1.) }) {
+		const SpringStep step { 0, Vec3(3 * y, 0, 0), Vec3(placed, 0, 0), Vec3::Zero(), Mat36::Zero(),
+			Vec3::Zero() };
+		EXPECT_EQ(SpringSteps(law(), { step }, 0, 1e-4).tangent(), tangent) << placed;
+	}
+}

@@ -103,6 +103,17 @@ def test_restitution_converges(kind, ratio):
         assert share <= 1 + 1e-9 and crushing > 0 and residual < rest, options
 
 
+def test_a_dent_is_no_uncarried_overlap():
+    """The dent is deeper than the share of the radius that the check reports."""
+    body, deepest = Impact("corner").load(30.0, 1.0, 1e-4), 0.0
+    check = find_engine(yt.OverlapCheck)
+    check.interval = 0
+    for _ in range(50):
+        O.step()
+        deepest = max([deepest, *(point["crushed"] for point in yt.contacts(0, 1))])
+    assert deepest > check.share * body.shape.radius and check.largest == 0
+
+
 def test_increment_form_is_elastic():
     """As the paper's: its force may exceed the strength."""
     _, share, crushing, _ = Impact("corner").run(30.0, 1.0, 1e-5, increment=True)
