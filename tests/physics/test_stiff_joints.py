@@ -87,7 +87,7 @@ def test_a_saved_scene_goes_on_with_the_same_bits(tmp_path):
 
 
 def peak_on_a_light_body(dt):
-    """Largest way [m] of a body of 2 t that starts with 1 m/s. A joint that yields, with a dashpot, holds a body of 1 kg;
+    """Largest way [m] of a body of 2 t that starts with 1 m/s. A yielding joint with a dashpot holds a body of 1 kg;
     another one, unbreakable, joins both."""
     O.reset()
     base = O.bodies.append(yt.box((0.2,) * 3, (0, 0, 5), fixed=True))
