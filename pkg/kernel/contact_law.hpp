@@ -91,10 +91,11 @@ template <class Number>
 
 /// Overlap explained by the approach within a step: the closing displacement, bounded by the overlap that the kinetic
 /// energy can compress. A stiff contact stops a fast light member within the step.
-/// mass: equivalent [kg], speed: of closing, >= 0 [m/s], h: step [s]; returns [m].
+/// mass: equivalent, infinite between two fixed bodies [kg], speed: of closing, >= 0 [m/s], h: step [s]; returns [m].
 template <class Law> double approachOverlap(const Law& law, double mass, double speed, double h)
 {
 	assert(mass > 0 && speed >= 0 && h > 0);
+	if (speed == 0) return 0;
 	return std::min(speed * h, law.overlapOf(mass / 2 * speed * speed));
 }
 
