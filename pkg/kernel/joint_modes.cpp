@@ -43,14 +43,23 @@ namespace {
 		return response;
 	}
 
-	/// R in the axes of A.
-	Mat6 response(const SolverBody& a, const SolverBody& b, const Mat3& axesA, const Vec3& centre)
+	/// The same 3x3 matrix for translations and rotations.
+	Mat6 twice(const Mat3& block)
 	{
-		const Vec3 arm = axesA * centre;
-		Mat6 axes = Mat6::Zero();
-		axes.topLeftCorner<3, 3>() = axes.bottomRightCorner<3, 3>() = axesA;
-		return axes.transpose() * (twistResponse(a, arm) + twistResponse(b, arm + a.position - b.position))
-		        * axes;
+		Mat6 matrix = Mat6::Zero();
+		matrix.topLeftCorner<3, 3>() = matrix.bottomRightCorner<3, 3>() = block;
+		return matrix;
+	}
+
+	/// |E| / phi of (4) for the worst axis, at most. response: R_B, in the axes of A.
+	double sensitivityOf(const Mat6& modes, const Mat6& response)
+	{
+		double squares = 0;
+		for (int axis = 0; axis < 3; ++axis) {
+			const Mat6 turned = twice(crossMatrix(Vec3::Unit(axis))) * response;
+			squares += (modes.transpose() * (turned + turned.transpose()) * modes).squaredNorm();
+		}
+		return std::sqrt(squares);
 	}
 
 	/// w of these velocities and spins, in world axes.
@@ -126,12 +135,16 @@ JointModes jointModes(const SolverBody& a, const SolverBody& b, const Mat3& axes
 	JointModes result;
 	result.state = state;
 	result.centre = centreOf(springs);
-	const Mat6 L = response(a, b, axesA, result.centre).llt().matrixL(); // R = L L^T
+	const Vec3 arm = axesA * result.centre;
+	const Mat6 axes = twice(axesA),
+	           responseB = axes.transpose() * twistResponse(b, arm + a.position - b.position) * axes,
+	           L = (axes.transpose() * twistResponse(a, arm) * axes + responseB).llt().matrixL(); // R = L L^T
 	const Eigen::SelfAdjointEigenSolver<Mat6> solver(L.transpose() * stiffnessMatrix(springs, result.centre) * L);
 	// Rounding may make the eigenvalue of a free rotation negative
 	result.frequencies = solver.eigenvalues().cwiseMax(0).cwiseSqrt();
 	result.twists = L * solver.eigenvectors();
 	result.modes = L.transpose().triangularView<Eigen::Upper>().solve(solver.eigenvectors());
+	result.sensitivity = sensitivityOf(result.modes, responseB);
 	return result;
 }
 
