@@ -150,7 +150,7 @@ public:
 	size_t addJoint(int bodyA, int bodyB);
 	/// Phase 2: points of the k-th pair from `first` on, one or up to laneCount. Thread-safe for different pairs.
 	template <class Number> void prepare(size_t k, size_t first, const StepInput<Number>& input);
-	/// Phase 2: the k-th joint; arguments as of timber::prepareModes(). Thread-safe for different joints.
+	/// Phase 2: the k-th joint; arguments as of prepareModes(). Thread-safe for different joints.
 	ModalConstraint& prepareJoint(
 	        size_t k, const JointModes& modes, const Mat3& axesA, const JointDamping& damping);
 	/// Phase 3: computes impulses and new velocities. Pairs are visited in the order of their indices, the points
@@ -174,10 +174,10 @@ public:
 		assert(k < pairs.size());
 		return pairs[k];
 	}
-	SolverBodies bodiesOf(const SolverPair& pair) const
+	/// Connection: SolverPair or ModalConstraint.
+	template <class Connection> SolverBodies bodiesOf(const Connection& c) const
 	{
-		return { (*bodies)[pair.bodyA], (*bodies)[pair.bodyB], weighted[pair.bodyA].root,
-			weighted[pair.bodyB].root };
+		return { (*bodies)[c.bodyA], (*bodies)[c.bodyB], weighted[c.bodyA].root, weighted[c.bodyB].root };
 	}
 	/// Phase 4: the k-th joint.
 	const ModalConstraint& joint(size_t k) const
@@ -202,7 +202,15 @@ private:
 	void startBody(int k);
 	void finishBodies();
 	void warmStart(const SolverPair& pair);
-	BodyMotion motionOf(int k) { return { (*bodies)[k], weighted[k] }; }
+	void solveJoint(ModalConstraint& joint, double threshold);
+	template <class Connection> PairVector changeOf(const Connection& c) const
+	{
+		return PairVector::of(weighted[c.bodyA].change, weighted[c.bodyB].change);
+	}
+	template <class Connection> void setChange(const Connection& c, const PairVector& change)
+	{
+		change.store(weighted[c.bodyA].change, weighted[c.bodyB].change);
+	}
 	double inverseMass(const SolverPair& pair) const
 	{
 		return pairInverseMass((*bodies)[pair.bodyA], (*bodies)[pair.bodyB]);
@@ -211,7 +219,6 @@ private:
 	double sumOfChanges() const;
 	double squaredThreshold(double tolerance, double firstChanges) const;
 	bool activateChanged(double threshold);
-	/// Connection: SolverPair or ModalConstraint.
 	template <class Connection> bool activateNeighbours(const Connection& c, double threshold);
 	bool sweepOnce(double threshold, bool forwards);
 	bool sweepJoints(double threshold, double applied = 1);

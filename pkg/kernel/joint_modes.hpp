@@ -132,6 +132,8 @@ double dashpotPower(const SolverBody& a, const SolverBody& b, const JointModes& 
 /// A joint's modes in a step.
 struct ModalConstraint {
 	int bodyA, bodyB;
+	PairVector rows[2][3]; ///< of J R (contact_solver.hpp), three modes each
+	Vec6 velocity; ///< Z^T u_0
 	const JointModes* modes; ///< Z in the axes of A
 	Mat3 axesA; ///< rotation matrix from the frame of A to the world
 	Vec3 armA, armB; ///< from the centres of mass to the joint's centre [m]
@@ -152,23 +154,23 @@ struct ModalConstraint {
 };
 
 /// Constraint for a step of h [s], with zero impulse. modes are not copied.
-void prepareModes(ModalConstraint& constraint, const SolverBody& a, const SolverBody& b, const JointModes& modes,
-        const Mat3& axesA, const JointDamping& damping, double h);
+void prepareModes(ModalConstraint& constraint, const SolverBodies& bodies, const JointModes& modes, const Mat3& axesA,
+        const JointDamping& damping, double h);
 
 /// Adds the springs of a stiff joint, with the impulse of their last forces.
 void addSprings(ModalConstraint& constraint, SpringSteps springs);
 
-/// Applies the impulse of a stiff joint's last forces.
-void warmStart(const ModalConstraint& constraint, const BodyMotion& a, const BodyMotion& b);
+/// Applies the impulse of a stiff joint's last forces. change: dW of (8), contact_solver.hpp, in-out.
+void warmStart(const ModalConstraint& constraint, PairVector& change);
 
 /// One Gauss-Seidel visit: (3), or (3) of spring_step.hpp. A squared change of at most `threshold` [J] is not applied.
-void solveModes(ModalConstraint& constraint, const BodyMotion& a, const BodyMotion& b, double threshold);
+void solveModes(ModalConstraint& constraint, PairVector& change, double threshold);
 
 /// Impulse of explicit dashpots, of the velocities before the step.
-void applyExplicitModes(ModalConstraint& constraint, const BodyMotion& a, const BodyMotion& b);
+void applyExplicitModes(ModalConstraint& constraint, PairVector& change);
 
-/// History and dissipated energy after the step. a, b: after the sweeps.
-void finishModes(ModalConstraint& constraint, const BodyMotion& a, const BodyMotion& b);
+/// History and dissipated energy after the step. change: after the sweeps.
+void finishModes(ModalConstraint& constraint, const PairVector& change);
 
 /// Impulse of the modes on B at the joint's centre.
 struct JointImpulse {
