@@ -52,7 +52,7 @@ class Verdict:
     plan: Plan
     speed_limit: float  # [m/s]
     moved: float  # largest displacement of a body [m]
-    creep: float  # over CREEP_TIME at the end [m/s]
+    creep: float  # at the end [m/s]
     weight: float  # error of the contact and joint forces on fixed bodies [-]
     handed: float  # of the forces that YADE's container has for them [-]
     answer: list
@@ -119,13 +119,16 @@ def handed_over():
 
 
 class Rest:
-    """Samples of the end of a scene: corners of the free bodies, forces on the fixed ones."""
+    """Samples of the end of a scene, at most half of the time after its last event: corners of the free bodies, forces
+    on the fixed ones."""
 
-    def __init__(self, end):
-        self.end, self.times, self.corners, self.loads = end, [], [], []
+    def __init__(self, plan):
+        last = max([0.0, *(when for when, _ in plan.events)])
+        self.start = plan.duration - min(CREEP_TIME, (plan.duration - last) / 2)
+        self.times, self.corners, self.loads = [], [], []
 
     def sample(self, watch):
-        if O.time < self.end - CREEP_TIME - O.dt / 2:
+        if O.time < self.start - O.dt / 2:
             return
         self.times.append(O.time)
         self.corners.append(watch.corners())
@@ -162,7 +165,7 @@ def judge(name, build, random):
     """Build a scene, run it -> Verdict. Errors of the health check end it."""
     O.reset()
     plan = build(random)
-    watch, rest, since, error = SceneWatch(plan), Rest(plan.duration), time.process_time(), ""
+    watch, rest, since, error = SceneWatch(plan), Rest(plan), time.process_time(), ""
     try:
         advance(watch, rest)
     except RuntimeError as problem:
