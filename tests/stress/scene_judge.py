@@ -134,13 +134,19 @@ class Rest:
         self.corners.append(watch.corners())
         self.loads.append((load_on_fixed(), handed_over()))
 
-    def creep(self):
-        """Of the fastest corner: slope of the least-squares line. [m/s]"""
-        times = np.array(self.times) - np.mean(self.times)
+    def slopes(self, first):
+        """Of each body's fastest corner from a sample on: slope of the least-squares line. [m/s]"""
+        times = np.array(self.times[first:]) - np.mean(self.times[first:])
         weights = times / (times**2).sum()
         ids = set.intersection(*map(set, self.corners))
-        slopes = (np.tensordot(weights, [corners[k] for corners in self.corners], 1) for k in ids)
-        return max(np.linalg.norm(slope, axis=1).max() for slope in slopes)
+        slopes = (np.tensordot(weights, [corners[k] for corners in self.corners[first:]], 1) for k in ids)
+        return np.array([np.linalg.norm(slope, axis=1).max() for slope in slopes])
+
+    def creep(self):
+        """Of the fastest body, in all samples and in the last quarter: a swing has none in the first, a body that has
+        come to rest none in the second. [m/s]"""
+        count = len(self.times)
+        return np.minimum(self.slopes(0), self.slopes(count - max(2, count // 4))).max() if count > 1 else 0.0
 
 
 def advance(watch, rest):
