@@ -31,6 +31,7 @@ void ContactSolver::begin(std::vector<SolverBody>& sceneBodies, double step, int
 	h = step;
 	maxSweeps = sweepLimit;
 	pairs.clear();
+	pointCount = 0;
 	joints.clear();
 	weighted.resize(sceneBodies.size());
 	freeBodies.clear();
@@ -53,10 +54,12 @@ void ContactSolver::startBody(int k)
 	        + weighted[k].root.weightedSpin(body.newSpin).squaredNorm();
 }
 
-size_t ContactSolver::addPair(int bodyA, int bodyB, PointRecord* points, size_t count)
+size_t ContactSolver::addPair(int bodyA, int bodyB, size_t count)
 {
 	assert(bodyA >= 0 && bodyB >= 0 && bodyA != bodyB);
-	pairs.push_back({ bodyA, bodyB, points, count, 0 });
+	pairs.push_back({ bodyA, bodyB, pointCount, count, 0 });
+	pointCount += count;
+	if (pointCount > steps.size()) steps.resize(pointCount);
 	startBody(bodyA);
 	startBody(bodyB);
 	return pairs.size() - 1;
@@ -87,7 +90,7 @@ template <class Number> void ContactSolver::prepare(size_t k, size_t first, cons
 	const SolverPair& pair = pairs[k];
 	const SolverBodies both = bodiesOf(pair);
 	const size_t count = std::is_same_v<Number, Lanes> ? std::min(size_t(laneCount), pair.count - first) : 1;
-	const auto at = [&](size_t i) -> PointStep& { return pair.points[first + i].step; };
+	const auto at = [&](size_t i) -> PointStep& { return stepsOf(pair)[first + i]; };
 	if (!isExplicit()) return prepareSteps<Number>(data, both, h, count, at);
 	StepInput<Number> input = data;
 	input.impulse = explicitImpulse<Number>(data, both, h);
@@ -110,9 +113,10 @@ void ContactSolver::finishBodies()
 void ContactSolver::warmStart(const SolverPair& pair)
 {
 	PairVector velocity = changeOf(pair);
+	const PointStep* points = stepsOf(pair);
 	for (size_t k = 0; k < pair.count; ++k)
 		for (int i = 0; i < 3; ++i)
-			velocity.add(pair.points[k].step.rows[i], pair.points[k].step.impulse[i]);
+			velocity.add(points[k].rows[i], points[k].impulse[i]);
 	setChange(pair, velocity);
 }
 
@@ -120,9 +124,10 @@ void ContactSolver::warmStart(const SolverPair& pair)
 void ContactSolver::solvePair(SolverPair& pair, bool forwards)
 {
 	PairVector velocity = changeOf(pair);
+	PointStep* points = stepsOf(pair);
 	double squaredChange = 0;
 	for (size_t k = 0; k < pair.count; ++k) {
-		PointStep& step = pair.points[forwards ? k : pair.count - 1 - k].step;
+		PointStep& step = points[forwards ? k : pair.count - 1 - k];
 		if (!step.idle) squaredChange += visitPoint(step, velocity);
 	}
 	pair.squaredChange = squaredChange * inverseMass(pair);
@@ -157,7 +162,7 @@ double ContactSolver::squaredThreshold(double tolerance, double firstChanges) co
 	for (const SolverPair& pair : pairs) {
 		double squares = 0;
 		for (size_t k = 0; k < pair.count; ++k) {
-			const PointStep& c = pair.points[k].step;
+			const PointStep& c = stepsOf(pair)[k];
 			squares += c.impulse[0] * c.impulse[0] + c.impulse[1] * c.impulse[1]
 			        + c.impulse[2] * c.impulse[2];
 		}
@@ -242,7 +247,7 @@ void ContactSolver::applyRestitution(const SolverPair& pair)
 {
 	PointStep* alone = nullptr;
 	for (size_t k = 0; k < pair.count; ++k) {
-		PointStep& c = pair.points[k].step;
+		PointStep& c = stepsOf(pair)[k];
 		if (c.impulse[0] == 0 && c.rebound == noRebound) continue;
 		if (alone) return;
 		alone = &c;
@@ -269,7 +274,7 @@ bool ContactSolver::returnsTooMuch() const
 	for (const SolverPair& pair : pairs) {
 		const PairVector velocity = changeOf(pair);
 		for (size_t k = 0; k < pair.count; ++k) {
-			const PointStep& c = pair.points[k].step;
+			const PointStep& c = stepsOf(pair)[k];
 			const PointStep::Quad work = c.impulse * (c.before + c.velocity + velocity.dots(c.rows)) / 2;
 			excess += std::max(0., work[0] - c.energy) + std::max(0., work[1] + work[2] - c.shearEnergy);
 			energy += c.energy + c.shearEnergy;
@@ -283,9 +288,10 @@ template <class Visit> void ContactSolver::visitUnknowns(Visit visit)
 	for (const SolverPair& pair : pairs)
 		for (size_t k = 0; k < pair.count; ++k)
 			for (int i = 0; i < 3; ++i) {
-				double p = pair.points[k].step.impulse[i];
+				PointStep& c = stepsOf(pair)[k];
+				double p = c.impulse[i];
 				visit(p, inverseMass(pair));
-				pair.points[k].step.impulse[i] = p;
+				c.impulse[i] = p;
 			}
 	for (ModalConstraint& joint : joints)
 		for (double& q : joint.impulse)

@@ -148,7 +148,8 @@ double dashpotPower(const SolverBody& a, const SolverBody& b, const JointModes& 
         const JointDamping& damping)
 {
 	const Vec3 armA = axesA * modes.centre;
-	const Vec6 eta = ModalAxes(modes, axesA, armA, armOfB(armA, a, b)).velocity(a.velocity, a.spin, b.velocity, b.spin);
+	const Vec6 eta
+	        = ModalAxes(modes, axesA, armA, armOfB(armA, a, b)).velocity(a.velocity, a.spin, b.velocity, b.spin);
 	return modes.frequencies.unaryExpr([&](double omega) { return damping.of(omega); }).dot(eta.cwiseAbs2());
 }
 
