@@ -357,7 +357,7 @@ def test_resume_without_the_frames_of_the_run(tmp_path, straight):
     assert run("modelA_snow", *longer, "--or-anew").returncode == 0 and len(frames.load(recorded).time) == 4
 
 
-@pytest.mark.parametrize("checkpoint", [0, 0.05])
+@pytest.mark.parametrize("checkpoint", [pytest.param(0, marks=pytest.mark.rare), 0.05])
 def test_a_limit_of_the_file_size(tmp_path, checkpoint):
     """As by `ulimit -f`: one line of this package, and no crash at the end."""
     def limited():
@@ -378,7 +378,8 @@ main("modelA_quake", ["modelA_quake.py", *{options}])
 """
 
 
-@pytest.mark.parametrize("times", [(0.05,), (0.3,), (1.5,), (0.2, 0.21), (2.0, 2.02, 2.3)])
+@pytest.mark.parametrize("times", [
+    (0.3,), (1.5,), (0.2, 0.21), *(pytest.param(times, marks=pytest.mark.rare) for times in ((0.05,), (2.0, 2.02, 2.3)))])
 def test_interrupted_at_once_or_twice(tmp_path, times):
     """Ctrl-C while modules are imported, the house is built, or steps are made: a line, no traceback. times: after the
     start of `main` [s].

@@ -15,7 +15,7 @@ from timber_houses.pictures import key_times
 from timber_houses.recording import frames
 
 SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
-SHORT = ["--dt", "2e-4", "--quiet", "--no-views"]
+SHORT = ["--dt", "4e-4", "--quiet", "--no-views"]
 SAME = ("history.csv", "breaks.csv", "storeys.csv", "joints.csv", "columns.csv")
 TOWN = """wave: {velocity: 100, direction: 90}
 lots:
