@@ -41,6 +41,7 @@ def test_folder_of_the_results(tmp_path, out, environment):
     assert json.loads((tmp_path / out / "summary.json").read_text())["verdict"] == "undamaged"
 
 
+@pytest.mark.rare
 def test_names_of_house_and_record(tmp_path):
     """Undecodable bytes in the names of files become escapes in results, pictures and report."""
     house, record = (tmp_path / os.fsdecode(name) for name in (b"house\xff.yaml", b"record\xff.csv"))

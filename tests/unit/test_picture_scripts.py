@@ -34,6 +34,7 @@ def save_runs(folder, ended):
         recorded.save(folder / name / recorded.NAME, frames(ended))
 
 
+@pytest.mark.rare
 def test_gallery(tmp_path):
     save_runs(tmp_path, ended=True)
     done = run("paper/make_gallery.py", tmp_path, "--out", tmp_path / "docs")

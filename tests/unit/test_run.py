@@ -326,6 +326,7 @@ def test_interrupted(tmp_path):
     assert anew.returncode == 0 and summary(tmp_path)["steps"] == 10, anew.stderr
 
 
+@pytest.mark.rare
 def test_resume_without_the_frames_of_the_run(tmp_path, straight):
     """Frames that are missing, of another run, of an earlier time, or a pipe: a line before the first step; without
     frames, or anew, the run goes on.
@@ -420,6 +421,7 @@ def test_output_files_follow_the_umask(tmp_path):
     assert not [name for name in modes if name.startswith(".part")]
 
 
+@pytest.mark.rare
 def test_a_collapse_ends_the_run_on_request(tmp_path, shove):
     """The run ends with the frame that follows the collapse (every 0.05 s), in the state of a run that goes on; also
     when it is resumed.
