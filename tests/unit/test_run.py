@@ -380,7 +380,8 @@ main("modelA_quake", ["modelA_quake.py", *{options}])
 
 
 @pytest.mark.parametrize("times", [
-    (0.3,), (1.5,), (0.2, 0.21), *(pytest.param(times, marks=pytest.mark.rare) for times in ((0.05,), (2.0, 2.02, 2.3)))])
+    (0.3,), (1.5,), (0.2, 0.21), pytest.param((0.05,), marks=pytest.mark.rare),
+    pytest.param((2.0, 2.02, 2.3), marks=pytest.mark.rare)])
 def test_interrupted_at_once_or_twice(tmp_path, times):
     """Ctrl-C while modules are imported, the house is built, or steps are made: a line, no traceback. times: after the
     start of `main` [s].
