@@ -14,7 +14,7 @@ from ..base.gravity import weight_of
 from ..base.joint_kinds import WALL_COLUMN, WALL_KINDS
 from . import diagnosis_tables as rules
 from .loads import bay_length, upper_area
-from .weight import column_axes, floor_area
+from .weight import floor_area
 
 DIRECTIONS = {"ew": 0, "ns": 1}
 """Direction and the index of its axis."""
@@ -119,7 +119,7 @@ def _required(roof, storeys, snow):
 
 
 def _storey(model, group, storey, required, bays):
-    here, plan = [bay for bay in bays if bay.columns[0].storey == storey], column_axes(model, group, storey)
+    here, plan = [bay for bay in bays if bay.columns[0].storey == storey], model.plans[group][storey]
     area, eccentricities = floor_area(model, group, storey), _eccentricities(here, _mass_centre(model, group, storey))
     needed, qr = (value * area for value in required) if required and area > 0 else (None, None)
     return {"floor_area_m2": round(area, 3),
@@ -133,7 +133,7 @@ def _direction(bays, axis, eccentricity, needed, qr, plan):
     existing = sum((bay.quantity for bay in mine), 0.0)
     qu = rules.ALLOWABLE_KN_M * rules.FITTINGS * existing + (rules.OTHER_ELEMENTS * qr if qr else 0.0)
     factor = eccentricity_factor(eccentricity)
-    quarters = None if needed is None else _quarters(mine, axis, plan, needed)
+    quarters = None if needed is None else _quarters(mine, axis, plan, needed / plan.area)
     return {"wall_quantity_m": round(existing, 3), "required_quantity_m": _rounded(needed),
             "wall_quantity_ratio": _rounded(existing / needed if needed else None), "quarters": quarters,
             "balanced": None if quarters is None else is_balanced(quarters[0], quarters[1], eccentricity),
@@ -160,14 +160,20 @@ def is_balanced(low, high, eccentricity):
                 or (eccentricity is not None and eccentricity <= rules.ECCENTRICITY_LIMIT))
 
 
-def _quarters(bays, axis, plan, needed):
-    """[low, high] existing over required wall quantity of the outer quarters. plan: (2, 2) [m]"""
+def _quarters(bays, axis, plan, coefficient):
+    """[low, high] existing over required wall quantity of the outer quarters of the largest extent across an axis.
+
+    Required: for the floor within the quarter (Notification 1352; compared: manual of ZERO, fukuicompu.co.jp, side
+    parts). coefficient: [m per m2 of floor]
+    """
     across = 1 - axis
-    low, high = plan[:, across]
+    low, high = plan.bounds[:, across]
     quarter = (high - low) / 4
-    sums = [sum(bay.quantity for bay in bays if bay.centre[across] <= low + quarter + 1e-6),
-            sum(bay.quantity for bay in bays if bay.centre[across] >= high - quarter - 1e-6)]
-    return [round(value / (needed / 4), 3) for value in sums]
+    ratios = []
+    for start, end in ((low, low + quarter), (high - quarter, high)):
+        existing = sum(bay.quantity for bay in bays if start - 1e-6 <= bay.centre[across] <= end + 1e-6)
+        ratios.append(round(existing / (coefficient * plan.area_between(across, start, end)), 3))
+    return ratios
 
 
 def _eccentricities(bays, mass):
@@ -250,10 +256,9 @@ def _uplift(model, group, bays):
 
     The corrections for the direction of braces are left out.
     """
-    storeys = sorted(model.storey_levels[group])
     columns = {(c.storey, c.name.rpartition(".")[2]): c for c in model.of_kind("column", group=group)}
     strengths = _foot_strengths(model)
-    needs = [(n_value(columns, key, bays, storeys), strengths.get(column.name, 0.0), column.name)
+    needs = [(n_value(columns, key, bays, model.plans[group]), strengths.get(column.name, 0.0), column.name)
              for key, column in columns.items()]
     rows = [(max(0.0, n) * rules.UPLIFT_KN, strength, name) for n, strength, name in needs]
     if not rows:
@@ -263,11 +268,14 @@ def _uplift(model, group, bays):
             "fitting_kn": round(strength, 3) if np.isfinite(strength) else None, "column": name}
 
 
-def n_value(columns, key, bays, storeys):
-    """N = sum of A B over a column and those above, less L; the larger direction. columns: {(storey, node): ...}"""
+def n_value(columns, key, bays, plans):
+    """N = sum of A B over a column and those above, less L; the larger direction.
+
+    columns: {(storey, node): ...}; plans: {storey: FloorPlan}
+    """
     storey, node = key
-    stack = [columns[level, node] for level in storeys if level >= storey and (level, node) in columns]
-    corner = [len(column.side) > 1 for column in stack]
+    stack = [columns[level, node] for level in sorted(plans) if level >= storey and (level, node) in columns]
+    corner = [plans[column.storey].is_corner(*column.solid.centroid[:2]) for column in stack]
     vertical = rules.VERTICAL["lower" if len(stack) > 1 else "top"][corner[0]]
     sums = [sum(rules.RESTRAINT[outer] * _difference(column, bays, axis) for column, outer in zip(stack, corner))
             for axis in (0, 1)]

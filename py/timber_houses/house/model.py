@@ -106,6 +106,7 @@ class HouseModel:
     snow_depth: float  # [m]
     storey_levels: dict  # group -> {storey: (z foot, z head) of its columns [m]}
     grids: dict  # group -> {'x': positions of its nodes [m], 'y': likewise}
+    plans: dict = field(default_factory=dict)  # group -> {storey: FloorPlan}
     multipliers: dict = field(default_factory=dict)  # wall type -> multiplier of the code [-], for the diagnosis
 
     def __repr__(self):

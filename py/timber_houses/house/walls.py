@@ -76,12 +76,13 @@ def _bays(structure, line, by_name):
     along, bays = line["along"], []
     for storey in line["storeys"] or structure.storeys:
         for at in line["at"]:
-            nodes, side = _nodes(structure, line, storey, at), structure.sides(**{ACROSS[along]: at})
+            nodes = _nodes(structure, line, storey, at)
             places = [(node, at) if along == "x" else (at, node) for node in nodes]
             columns = [by_name[f"{structure.name}.column{storey}.x{x:g}y{y:g}"] for x, y in places]
             start = f"{structure.name}.wall{storey}.{line_name(along, at)}"
-            bays += [Bay(f"{start}.{first:g}-{last:g}", low, high, side, line["opening"], line["panel"],
-                     line.where)
+            bays += [Bay(f"{start}.{first:g}-{last:g}", low, high,
+                         structure.outer_sides(storey, along, at, first, last), line["opening"], line["panel"],
+                         line.where)
                      for first, last, low, high in zip(nodes, nodes[1:], columns, columns[1:])]
     return bays
 
