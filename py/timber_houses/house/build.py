@@ -17,7 +17,7 @@ from .model import Element, HouseModel
 from .plan import plan_of
 from .roof import carry_roofs, lay_roof, lay_snow
 from .structure import OUTWARD, Structure, require_few
-from .wall_types import has_rated_walls, multiplier
+from .wall_types import has_rated_walls
 from .walls import sheathe
 
 STRIPS = {"foundation": "foundation", "sill": "sill", "beams": "beam"}
@@ -147,4 +147,9 @@ def _model(description, elements, joints, structures, depth):
                       {k: dict(v) for k, v in data["materials"].items()},
                       [(*pair["between"], pair["coefficient"]) for pair in data["friction"]], dict(data["law"]), depth,
                       levels, grids, {s.name: _plans(elements, s) for s in structures.values()},
-                      {name: multiplier(table) for name, table in data["wall_types"].items()})
+                      {s.name: {**data["diagnosis"], "wall_load": _own(s, data, "wall")} for s in structures.values()})
+
+
+def _own(structure, data, key):
+    """A load of a structure: its own, or the house's."""
+    return data["loads"][key] if structure.table["loads"][key] is None else structure.table["loads"][key]

@@ -31,6 +31,12 @@ def upper_area(element):
     return sum(abs(polygon_area(face.points @ face.axes.T)) for face in element.solid.faces if face.normal[2] > 1e-6)
 
 
+def projected_area(element):
+    """Horizontal projection of the faces that look upwards. [m2]"""
+    return sum(abs(polygon_area(face.points @ face.axes.T)) * face.normal[2] for face in element.solid.faces
+               if face.normal[2] > 1e-6)
+
+
 def _hang_walls(structure, members, load, earlier):
     """Add the weight [kN/m2] of the outer walls to the columns in them.
 

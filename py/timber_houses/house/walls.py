@@ -21,7 +21,7 @@ from .loads import bay_length
 from .members import column_plan, line_name, nodes_on_line, require_column
 from .model import JointSpec
 from .structure import ACROSS
-from .wall_types import cycles, envelope
+from .wall_types import cycles, envelope, multiplier, quasi_multiplier
 
 SHARE = 0.5
 """Of a wall's shear, between beams and between columns. [-]"""
@@ -48,6 +48,13 @@ class Bay:
     def length(self):
         """Between the axes of the columns. [m]"""
         return bay_length(self.low, self.high)
+
+    def multipliers(self, table):
+        """(multiplier, quasi-bearing multiplier) by which the rules count a type in this bay: a bay with an opening has
+        neither, one with panels the second. [-]"""
+        if self.opening != "none":
+            return 0.0, 0.0
+        return (multiplier(table), 0.0) if self.panel is None else (0.0, quasi_multiplier(table, self.panel))
 
     def share(self, table):
         """Of the strength of a bearing wall of this type without an opening. [-]"""
@@ -113,7 +120,8 @@ def _joints(bay, name, members, data, level):
     beams, columns = (_values(bay, table, level, lever, height / lever) for lever in (height, bay.length))
     common = dict(points=(low.centroid + high.centroid)[None] / 2, area=0.0, type=name, ks=0.0, per="spring",
                   storey=bay.low.storey, side=bay.side, group=bay.low.group,
-                  initial_damping=data["law"]["damping_stiffness"] == "initial")
+                  initial_damping=data["law"]["damping_stiffness"] == "initial",
+                  **dict(zip(("multiplier", "quasi_multiplier"), bay.multipliers(table))))
     return [
         JointSpec(a=below.name, b=above.name, normal=along / np.linalg.norm(along), kind=WALL_BEAM,
                   label=f"{label}.beams", **beams, **common),
