@@ -14,6 +14,7 @@ from ..base.gravity import weight_of
 from ..base.joint_kinds import WALL_COLUMN, WALL_KINDS
 from . import diagnosis_tables as rules
 from .loads import bay_length, upper_area
+from .pushover import pushover
 from .wall_quantity import requirement
 from .weight import floor_area
 
@@ -125,6 +126,7 @@ def _storey(model, group, storey, needs, strength, bays):
     """strength: Qr [kN/m2], None beyond three storeys"""
     here, plans = [bay for bay in bays if bay.columns[0].storey == storey], model.plans[group]
     area, eccentricities = floor_area(model, group, storey), _eccentricities(here, _mass_centre(model, group, storey))
+    curves = pushover(model, group)
     is_rated = bool(needs.quantities_of_all) and area > 0
     quantity = needs.quantities_of_all[storey - 1] if is_rated else None
     return {"floor_area_m2": round(area, 3), "required_cm_m2": quantity,
@@ -132,7 +134,7 @@ def _storey(model, group, storey, needs, strength, bays):
                                             quantity * area / 100 if is_rated else None,
                                             strength * area if strength and area > 0 else None,
                                             _quarters(here, axis, plans, storey, needs) if is_rated else None,
-                                            needs.rule)
+                                            needs.rule) | {"pushover": curves[storey, name]}
                            for name, axis in DIRECTIONS.items()}}
 
 
@@ -145,6 +147,7 @@ def _direction(bays, axis, eccentricity, needed, qr, quarters, rule):
     factor = eccentricity_factor(eccentricity)
     return {"wall_quantity_m": round(existing, 3), "bearing_m": round(bearing, 3), "quasi_bearing_m": round(quasi, 3),
             "required_quantity_m": _rounded(needed),
+            "demand_kn": _rounded(rules.ALLOWABLE_KN_M * needed if needed else None),
             "wall_quantity_ratio": _rounded(existing / needed if needed else None), "quarters": quarters,
             "balanced": None if quarters is None else is_balanced(quarters[0], quarters[1], eccentricity),
             "eccentricity": _rounded(eccentricity), "qu_kn": round(qu, 3), "qr_kn": _rounded(qr),

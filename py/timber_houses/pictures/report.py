@@ -23,7 +23,7 @@ from ..recording import verdict
 from ..recording.failures import first_failures
 from ..text.english import counted, directed, direction_name, period_text, sentence, storey_name
 from ..text.lines import before, lines
-from . import REPORT, fonts, quantities, report_pictures
+from . import REPORT, fonts, pushover, quantities, report_pictures
 from .panels import panels
 from .style import default_style
 
@@ -76,6 +76,7 @@ def page(frames, results):
         spectra=picture(report_pictures.motion(frames)) if frames.motion else None,
         periods=summary.quantities.modes.before is not None,
         until=before(summary.quantities),
+        pushover=pushover_picture(summary),
         storeys=storeys(summary),
         shots=picture(*report_pictures.shots(frames)),
         lines=lines(summary),
@@ -96,6 +97,14 @@ def picture(figure, part=None):
     fonts.apply(figure)
     figure.savefig(data, format="png", dpi=report_pictures.DPI, bbox_inches=part, metadata={"Software": None})
     return f"data:image/png;base64,{base64.b64encode(data.getvalue()).decode()}"
+
+
+def pushover_picture(summary):
+    """Pushover curves of the main structure; None without walls and braces, or in an earlier run's summary."""
+    name = next(iter(summary.structures))
+    structure = summary.diagnosis.structures.get(name)
+    drawn = structure and pushover.figure(name, structure)
+    return picture(drawn) if drawn else None
 
 
 # --- parts of the page ------------------------------------------------------------------------------------------------
