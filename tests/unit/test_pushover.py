@@ -1,6 +1,7 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Pushover curves beside the sum of the envelopes of the wall types. Tolerance: shears are rounded to 1 N."""
+"""Pushover curves beside the sum of the envelopes of the wall types. Tolerance: shears are rounded to 1 N. Names of
+modes."""
 
 import sys
 from pathlib import Path
@@ -16,6 +17,8 @@ from timber_houses.house import build_house, diagnose, load_house
 from timber_houses.house.pushover import pushover
 from timber_houses.house.wall_types import envelope
 from timber_houses.pictures.pushover import figure
+from timber_houses.recording.summary_parts import Components, Mode
+from timber_houses.text.english import mode_name
 
 
 def test_sum_of_the_walls(tmp_path):
@@ -54,3 +57,9 @@ def test_figure_of_the_storeys(tmp_path):
     assert [line.get_ydata()[0] for line in drawn.axes[0].lines if line.get_linestyle() == "--"] == [side["demand_kn"]]
     bare = diagnose(build_house(load_house(write(tmp_path, "bare", house_file("L")))))["structures"]["main"]
     assert figure("main", bare) is None
+
+
+def test_a_coupled_mode_has_both_directions():
+    names = [mode_name(Mode(0.3, direction, Components(ns=ns, ew=ew, ud=0.0), {}))
+             for direction, ns, ew in (("ns", 0.8, 0.05), ("ew", 0.3, 0.5), ("ns", 0.45, 0.44), ("ew", 0.0, 0.9))]
+    assert names == ["N-S", "coupled E-W and N-S", "coupled N-S and E-W", "E-W"]

@@ -21,7 +21,7 @@ from ..motion.measures import stated_intensity
 from ..recording import frames as recording
 from ..recording import verdict
 from ..recording.failures import first_failures
-from ..text.english import counted, directed, direction_name, period_text, sentence, storey_name
+from ..text.english import counted, directed, mode_name, period_text, sentence, storey_name
 from ..text.lines import before, lines
 from . import REPORT, fonts, pushover, quantities, report_pictures
 from .panels import panels
@@ -121,7 +121,7 @@ def house(frames, summary, failures):
              "orange: joints broken from the start": any(frames.joints.damaged),
              "numbers: first failures": failures}
     legend = "; ".join(["Plans, north up", *(mark for mark, occurs in marks.items() if occurs)])
-    periods = ", ".join(f"{direction_name(axis)} {period_text(mode)}" for axis in ("ns", "ew")
+    periods = ", ".join(f"{mode_name(mode)} {period_text(mode)}" for axis in ("ns", "ew")
                         if (mode := summary.main_mode("before", axis)))
     index = f"By the diagnosis of engineers: {summary.diagnosis.sentence}. {summary.diagnosis.disagreement}"
     natural = f" Natural periods {periods}." if periods else ""
