@@ -208,7 +208,7 @@ def test_finishes_are_taken_off(tmp_path):
     """No rule counts them, and one word removes them."""
     line = "{along: x, at: 0, from: 0, to: 3, type: [plywood, siding]}"
     model = house(tmp_path, line)
-    assert model.multipliers["siding"] == 0 and {joint.type for joint in sheets(model)} == {"plywood", "siding"}
+    assert {joint.type: joint.multiplier for joint in sheets(model)} == {"plywood": 2.5, "siding": 0}
     own = tmp_path / "bare.yaml"
     own.write_text("extends: own.yaml\nfinishes: false\n")
     bare = build_house(load_house(own))
@@ -217,7 +217,7 @@ def test_finishes_are_taken_off(tmp_path):
 
 
 def test_walls_that_cover_a_part_of_the_height(tmp_path):
-    """0.6 times the share of the height, of wood lath this share alone; not counted."""
+    """0.6 times the share of the height, of wood lath this share alone; as a bearing wall not counted."""
     lath = [sheets(house(tmp_path, f"{{along: x, at: 4, from: 0, to: 1, type: lath_plaster, storeys: 1{end}}}"))[0]
             for end in ("", ", panel: 0.5")]
     assert lath[1].strength == pytest.approx(0.5 * lath[0].strength)
@@ -225,7 +225,7 @@ def test_walls_that_cover_a_part_of_the_height(tmp_path):
     whole, part = (house(tmp_path, line % end) for end in ("", ", panel: 0.5"))
     assert sheets(part)[0].strength == pytest.approx(0.3 * sheets(whole)[0].strength)
     assert sheets(part)[0].name.endswith("0-1.plywood.panel.beams")
-    quantity = [diagnose(model)["structures"]["main"]["storeys"]["1"]["directions"]["ew"]["wall_quantity_m"]
+    quantity = [diagnose(model)["structures"]["main"]["storeys"]["1"]["directions"]["ew"]["bearing_m"]
                 for model in (part, build_house(load_house("C")))]
     assert quantity[0] == quantity[1]
 

@@ -23,7 +23,8 @@ def _brace(structure, layer, place, where, plan):
     planes = _extruded(brace_planes(ends, (layer.z0, layer.z1), table["width"]), along,
                        structure.position(ACROSS[along], at), table["thickness"])
     return structure.element("brace", name, structure.cut(name, planes, where), table, where, storey=layer.storey,
-                             side=structure.sides(**{ACROSS[along]: at}), section=(table["width"], table["thickness"]))
+                             side=structure.outer_sides(layer.storey, along, at, foot, head),
+                             section=(table["width"], table["thickness"]))
 
 
 def _clear_bay(structure, storey, place, where, plan):

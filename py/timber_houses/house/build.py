@@ -12,11 +12,12 @@ from .errors import HouseError
 from .geometry import box
 from .joints import find_joints
 from .loads import apply_loads
-from .members import lay_columns, lay_floors, lay_strips
+from .members import column_plan, lay_columns, lay_floors, lay_strips
 from .model import Element, HouseModel
-from .roof import OUTWARD, carry_roofs, lay_roof, lay_snow
-from .structure import Structure, require_few
-from .wall_types import has_rated_walls, multiplier
+from .plan import plan_of
+from .roof import carry_roofs, lay_roof, lay_snow
+from .structure import OUTWARD, Structure, require_few
+from .wall_types import has_rated_walls
 from .walls import sheathe
 
 STRIPS = {"foundation": "foundation", "sill": "sill", "beams": "beam"}
@@ -30,7 +31,8 @@ def build_house(description, snow_depth=None, check=True, wall_level=None):
     require_snow_depth(depth, "snow depth")
     structures = {}
     for name, table in data["structures"].items():
-        structures[name] = Structure(name, table, data["materials"], structures)
+        structure = structures[name] = Structure(name, table, data["materials"], structures)
+        structure.plans = {storey: plan_of(structure, storey) for storey in structure.storeys}
     _require_storeys(structures)
     elements = [_ground(data, structures)]
     for structure in structures.values():
@@ -109,6 +111,18 @@ def _lean(elements, structures, plumb):
         element.move(element.vertices + plumb["drift"] * rise[:, None] * direction)
 
 
+def _plans(elements, structure):
+    """{storey: FloorPlan} at mid height of the storey's columns, which may lean."""
+    plans = {}
+    for storey, plan in structure.plans.items():
+        column = next((e for e in elements if e.kind == "column" and e.group == structure.name
+                       and e.storey == storey), None)
+        node = next(iter(column_plan(structure, storey)), None)
+        at = [structure.position(axis, n) for axis, n in zip("xy", node or ())]
+        plans[storey] = plan.moved(column.solid.centroid[:2] - at) if column else plan
+    return plans
+
+
 def _ground(data, structures):
     """Fixed box with its top at z = 0 under the middle of the first structure."""
     ground = data["ground"]
@@ -132,4 +146,10 @@ def _model(description, elements, joints, structures, depth):
     return HouseModel(data["name"], data["description"], elements, joints,
                       {k: dict(v) for k, v in data["materials"].items()},
                       [(*pair["between"], pair["coefficient"]) for pair in data["friction"]], dict(data["law"]), depth,
-                      levels, grids, {name: multiplier(table) for name, table in data["wall_types"].items()})
+                      levels, grids, {s.name: _plans(elements, s) for s in structures.values()},
+                      {s.name: {**data["diagnosis"], "wall_load": _own(s, data, "wall")} for s in structures.values()})
+
+
+def _own(structure, data, key):
+    """A load of a structure: its own, or the house's."""
+    return data["loads"][key] if structure.table["loads"][key] is None else structure.table["loads"][key]

@@ -30,7 +30,7 @@ def _break(joints, structure, region, kind, default_end, path):
                   and side in j.side and j.end == end and not j.broken]
     if not candidates:
         raise HouseError(f"{wanted.at('count')}: {path}: the {side} side of {structure.name} has no such whole joint at"
-                         f" the {end} of storey {storey}: sides are the first and last line of the grid")
+                         f" the {end} of storey {storey}: sides are those of the outline of its floor")
     if wanted["count"] > len(candidates):
         raise HouseError(f"{wanted.at('count')}: {path}: {wanted['count']} joints are to be broken, but the {side} wall"
                          f" of {structure.name} has {len(candidates)} whole ones at the {end} of storey {storey}; lower"

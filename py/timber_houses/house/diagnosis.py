@@ -14,7 +14,9 @@ from ..base.gravity import weight_of
 from ..base.joint_kinds import WALL_COLUMN, WALL_KINDS
 from . import diagnosis_tables as rules
 from .loads import bay_length, upper_area
-from .weight import column_axes, floor_area
+from .pushover import pushover
+from .wall_quantity import requirement
+from .weight import floor_area
 
 DIRECTIONS = {"ew": 0, "ns": 1}
 """Direction and the index of its axis."""
@@ -22,13 +24,14 @@ DIRECTIONS = {"ew": 0, "ns": 1}
 
 @dataclass(frozen=True)
 class RatedBay:
-    """A bay with braces or sheets without openings: its columns (elements), the sum of its multipliers [-], index of
-    its axis, effective wall length [m], centre (2,) [m]."""
+    """A bay with braces, sheets without openings or panels: its columns (elements), the sum of its multipliers of
+    bearing walls [-], index of its axis, effective lengths of bearing and quasi-bearing wall [m], centre (2,) [m]."""
 
     columns: tuple
     multiplier: float
     axis: int
     quantity: float
+    quasi: float
     centre: np.ndarray
 
 
@@ -41,7 +44,8 @@ def diagnose(model):
     is_rated = _least(dict(list(structures.items())[:1]), "iw")[0] is not None  # the main structure
     rated = structures if is_rated else {}
     (iw, iw_at), (ratio, ratio_at) = _least(rated, "iw"), _least(rated, "wall_quantity_ratio")
-    totals = {"iw": iw, "iw_at": iw_at, "judgement": judgement(iw), "wall_quantity_ratio": ratio,
+    rule = next(iter(rated.values()))["rule_name"] if rated else None
+    totals = {"rule": rule, "iw": iw, "iw_at": iw_at, "judgement": judgement(iw), "wall_quantity_ratio": ratio,
              "wall_quantity_at": ratio_at, "broken_from_start": sum(joint.broken for joint in model.joints),
              "structures": structures}
     return {**totals, "sentence": sentence(totals)}
@@ -66,7 +70,7 @@ def sentence(diagnosis):
         return "no seismic index: the rules are for one to three storeys with a floor area"
     return (f"seismic index Iw {diagnosis['iw']:.2f} ({diagnosis['iw_at']}): {diagnosis['judgement']} under a very rare"
             f" earthquake; least wall quantity {100 * diagnosis['wall_quantity_ratio']:.0f} % of the required one"
-            f" ({diagnosis['wall_quantity_at']})")
+            f" by the {diagnosis['rule']} ({diagnosis['wall_quantity_at']})")
 
 
 def comparison(summary):
@@ -101,40 +105,49 @@ def _circumstances(summary):
 
 
 def _structure(model, group):
-    storeys, bays = sorted(model.storey_levels[group]), _bays(model, group)
-    roof = _roof_class(model, group)
-    required = _required(roof, len(storeys), model.snow_depth)
-    return {"roof": roof,
-            "storeys": {str(storey): _storey(model, group, storey, required.get(storey), bays) for storey in storeys},
+    storeys, roof = sorted(model.storey_levels[group]), _roof_class(model, group)
+    needs = requirement(model, group, roof)
+    bays = _bays(model, group, needs.rule.largest_multiplier)
+    strengths = dict(enumerate(_required_strengths(roof, len(storeys), model.snow_depth), 1))
+    return {"roof": roof, **needs.table(),
+            "storeys": {str(storey): _storey(model, group, storey, needs, strengths.get(storey), bays)
+                        for storey in storeys},
             "uplift": _uplift(model, group, bays)}
 
 
-def _required(roof, storeys, snow):
-    """{storey: (wall quantity [m per m2 of floor], Qr [kN/m2])}, empty beyond three storeys. snow: depth [m]"""
-    quantities = rules.WALL_QUANTITY["light" if roof == "light" else "heavy"].get(storeys, ())
+def _required_strengths(roof, storeys, snow):
+    """[Qr [kN/m2]] of the storeys, empty beyond three. snow: depth [m]"""
     first, last = rules.SNOW_DEPTHS
     addition = rules.SNOW_STRENGTH * min(snow, last) if snow >= first else 0.0
-    return {storey: (quantity / 100, strength + addition) for storey, (quantity, strength)
-            in enumerate(zip(quantities, rules.REQUIRED_STRENGTH[roof].get(storeys, ())), 1)}
+    return [strength + addition for strength in rules.REQUIRED_STRENGTH[roof].get(storeys, ())]
 
 
-def _storey(model, group, storey, required, bays):
-    here, plan = [bay for bay in bays if bay.columns[0].storey == storey], column_axes(model, group, storey)
+def _storey(model, group, storey, needs, strength, bays):
+    """strength: Qr [kN/m2], None beyond three storeys"""
+    here, plans = [bay for bay in bays if bay.columns[0].storey == storey], model.plans[group]
     area, eccentricities = floor_area(model, group, storey), _eccentricities(here, _mass_centre(model, group, storey))
-    needed, qr = (value * area for value in required) if required and area > 0 else (None, None)
-    return {"floor_area_m2": round(area, 3),
-            "directions": {name: _direction(here, axis, eccentricities[axis], needed, qr, plan)
+    curves = pushover(model, group)
+    is_rated = bool(needs.quantities_of_all) and area > 0
+    quantity = needs.quantities_of_all[storey - 1] if is_rated else None
+    return {"floor_area_m2": round(area, 3), "required_cm_m2": quantity,
+            "directions": {name: _direction(here, axis, eccentricities[axis],
+                                            quantity * area / 100 if is_rated else None,
+                                            strength * area if strength and area > 0 else None,
+                                            _quarters(here, axis, plans, storey, needs) if is_rated else None,
+                                            needs.rule) | {"pushover": curves[storey, name]}
                            for name, axis in DIRECTIONS.items()}}
 
 
-def _direction(bays, axis, eccentricity, needed, qr, plan):
-    """needed: wall quantity [m], qr [kN]: None where the rules give none"""
+def _direction(bays, axis, eccentricity, needed, qr, quarters, rule):
+    """needed: wall quantity [m], qr [kN], quarters: None where the rules give none"""
     mine = [bay for bay in bays if bay.axis == axis]
-    existing = sum((bay.quantity for bay in mine), 0.0)
-    qu = rules.ALLOWABLE_KN_M * rules.FITTINGS * existing + (rules.OTHER_ELEMENTS * qr if qr else 0.0)
+    bearing, quasi = sum((bay.quantity for bay in mine), 0.0), sum((bay.quasi for bay in mine), 0.0)
+    existing = bearing + min(quasi, rule.quasi_share * (needed or 0.0))
+    qu = rules.ALLOWABLE_KN_M * rules.FITTINGS * bearing + (rules.OTHER_ELEMENTS * qr if qr else 0.0)
     factor = eccentricity_factor(eccentricity)
-    quarters = None if needed is None else _quarters(mine, axis, plan, needed)
-    return {"wall_quantity_m": round(existing, 3), "required_quantity_m": _rounded(needed),
+    return {"wall_quantity_m": round(existing, 3), "bearing_m": round(bearing, 3), "quasi_bearing_m": round(quasi, 3),
+            "required_quantity_m": _rounded(needed),
+            "demand_kn": _rounded(rules.ALLOWABLE_KN_M * needed if needed else None),
             "wall_quantity_ratio": _rounded(existing / needed if needed else None), "quarters": quarters,
             "balanced": None if quarters is None else is_balanced(quarters[0], quarters[1], eccentricity),
             "eccentricity": _rounded(eccentricity), "qu_kn": round(qu, 3), "qr_kn": _rounded(qr),
@@ -160,14 +173,22 @@ def is_balanced(low, high, eccentricity):
                 or (eccentricity is not None and eccentricity <= rules.ECCENTRICITY_LIMIT))
 
 
-def _quarters(bays, axis, plan, needed):
-    """[low, high] existing over required wall quantity of the outer quarters. plan: (2, 2) [m]"""
+def _quarters(bays, axis, plans, storey, needs):
+    """[low, high] existing bearing walls over the required quantity of the outer quarters of a storey's extent across
+    an axis, for the floor within each. plans: {storey: FloorPlan}
+
+    The extent is the largest one (Notification 1352; compared: fukuicompu.co.jp, manual of ZERO, side parts).
+    """
     across = 1 - axis
-    low, high = plan[:, across]
+    low, high = plans[storey].bounds[:, across]
     quarter = (high - low) / 4
-    sums = [sum(bay.quantity for bay in bays if bay.centre[across] <= low + quarter + 1e-6),
-            sum(bay.quantity for bay in bays if bay.centre[across] >= high - quarter - 1e-6)]
-    return [round(value / (needed / 4), 3) for value in sums]
+    ratios = []
+    for start, end in ((low, low + quarter), (high - quarter, high)):
+        existing = sum(bay.quantity for bay in bays
+                       if bay.axis == axis and start - 1e-6 <= bay.centre[across] <= end + 1e-6)
+        areas = [plan.area_between(across, start, end) for _, plan in sorted(plans.items())]
+        ratios.append(round(existing / (needs.quantities(areas)[storey - 1] / 100 * areas[storey - 1]), 3))
+    return ratios
 
 
 def _eccentricities(bays, mass):
@@ -202,28 +223,31 @@ def _roof_class(model, group):
 # --- bays -------------------------------------------------------------------------------------------------------------
 
 
-def _bays(model, group):
-    totals, bays = Counter(), []
-    for low, high, multiplier in [*_sheets(model, group), *_braces(model, group)]:
-        totals[tuple(sorted((low, high), key=lambda column: column.name))] += multiplier
+def _bays(model, group, largest):
+    """RatedBays of a structure. largest: sum of the multipliers of a bay [-]"""
+    totals, quasi = Counter(), Counter()
+    for low, high, multiplier, panels in [*_sheets(model, group), *_braces(model, group)]:
+        columns = tuple(sorted((low, high), key=lambda column: column.name))
+        totals[columns] += multiplier
+        quasi[columns] += panels
+    bays = []
     for columns, total in totals.items():
         low, high = (column.solid.centroid[:2] for column in columns)
-        multiplier = min(total, rules.LARGEST_MULTIPLIER)
-        bays.append(RatedBay(columns, multiplier, int(np.argmax(np.abs(high - low))),
-                             multiplier * bay_length(*columns), (low + high) / 2))
+        multiplier, length = min(total, largest), bay_length(*columns)
+        bays.append(RatedBay(columns, multiplier, int(np.argmax(np.abs(high - low))), multiplier * length,
+                             min(quasi[columns], largest - multiplier) * length, (low + high) / 2))
     return bays
 
 
 def _sheets(model, group):
-    """(column, column, multiplier) of bearing walls without openings."""
+    """(column, column, multiplier, quasi-bearing multiplier) of walls that count."""
     for joint in model.joints:
-        is_partial = joint.label.endswith((".window.columns", ".door.columns", ".panel.columns"))
-        if joint.kind == WALL_COLUMN and joint.group == group and not joint.broken and not is_partial:
-            yield model.element(joint.a), model.element(joint.b), model.multipliers[joint.type]
+        if joint.kind == WALL_COLUMN and joint.group == group and not joint.broken:
+            yield model.element(joint.a), model.element(joint.b), joint.multiplier, joint.quasi_multiplier
 
 
 def _braces(model, group):
-    """(column, column, multiplier) of braces whose ends are joined: the columns nearest to foot and head."""
+    """(column, column, multiplier, 0) of braces whose ends are joined: the columns nearest to foot and head."""
     columns = model.of_kind("column", group=group)
     torn = {joint.a for joint in model.joints if joint.broken and model.element(joint.b).kind != "column"}
     for brace in (brace for brace in model.of_kind("brace", group=group) if brace.name not in torn):
@@ -231,7 +255,7 @@ def _braces(model, group):
         here = [column for column in columns if column.storey == brace.storey]
         foot, head = (min(here, key=lambda column: np.hypot(*(column.solid.centroid[:2] - end))) for end in ends)
         if foot is not head:
-            yield foot, head, brace_multiplier(brace.section)
+            yield foot, head, brace_multiplier(brace.section), 0.0
 
 
 def brace_multiplier(section):
@@ -250,10 +274,9 @@ def _uplift(model, group, bays):
 
     The corrections for the direction of braces are left out.
     """
-    storeys = sorted(model.storey_levels[group])
     columns = {(c.storey, c.name.rpartition(".")[2]): c for c in model.of_kind("column", group=group)}
     strengths = _foot_strengths(model)
-    needs = [(n_value(columns, key, bays, storeys), strengths.get(column.name, 0.0), column.name)
+    needs = [(n_value(columns, key, bays, model.plans[group]), strengths.get(column.name, 0.0), column.name)
              for key, column in columns.items()]
     rows = [(max(0.0, n) * rules.UPLIFT_KN, strength, name) for n, strength, name in needs]
     if not rows:
@@ -263,11 +286,14 @@ def _uplift(model, group, bays):
             "fitting_kn": round(strength, 3) if np.isfinite(strength) else None, "column": name}
 
 
-def n_value(columns, key, bays, storeys):
-    """N = sum of A B over a column and those above, less L; the larger direction. columns: {(storey, node): ...}"""
+def n_value(columns, key, bays, plans):
+    """N = sum of A B over a column and those above, less L; the larger direction.
+
+    columns: {(storey, node): ...}; plans: {storey: FloorPlan}
+    """
     storey, node = key
-    stack = [columns[level, node] for level in storeys if level >= storey and (level, node) in columns]
-    corner = [len(column.side) > 1 for column in stack]
+    stack = [columns[level, node] for level in sorted(plans) if level >= storey and (level, node) in columns]
+    corner = [plans[column.storey].is_corner(*column.solid.centroid[:2]) for column in stack]
     vertical = rules.VERTICAL["lower" if len(stack) > 1 else "top"][corner[0]]
     sums = [sum(rules.RESTRAINT[outer] * _difference(column, bays, axis) for column, outer in zip(stack, corner))
             for axis in (0, 1)]

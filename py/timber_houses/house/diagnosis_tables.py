@@ -1,15 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Coefficients of the diagnosis of a wooden house, each with its source.
 
-Order: Enforcement Order of the Building Standard Law, as in force until March 2025. JBDPA: seismic diagnosis of wooden
-houses, general diagnosis (Japan Building Disaster Prevention Association, 2012). None of them was at hand: 'compared'
-names the published text that repeats the numbers, 'not verified' is from memory of the source.
+Order: Enforcement Order of the Building Standard Law; its rules of wall quantity: wall_quantity.py. JBDPA: seismic
+diagnosis of wooden houses, general diagnosis (Japan Building Disaster Prevention Association, 2012). None of them was
+at hand: 'compared' names the published text that repeats the numbers, 'not verified' is from memory of the source.
 """
 DIRECTION_NAMES = {"ew": "E-W", "ns": "N-S"}
 ALLOWABLE_KN_M = 1.96
 """Allowable shear of a wall of multiplier 1. [kN/m] (Order, Article 46; compared: stmaki.com, N-value method)"""
-LARGEST_MULTIPLIER = 5.0
-"""Of all sheets and braces of a bay together. [-] (Order, Article 46, Table 1; compared: kenchikuyogo.com)"""
 BRACES = ((0.090, 3.0), (0.045, 2.0), (0.030, 1.5), (0.015, 1.0))
 """(least thickness [m], multiplier [-]) of a brace 90 mm wide or more. (Order, Article 46, Table 1; compared: 15 mm
 kenchikuyogo.com, 30 and 45 mm what-myhome.net; 90 mm not verified)"""
@@ -20,7 +18,7 @@ ROOF_CLASSES = ((1.01, "very_heavy"), (0.69, "heavy"), (0.0, "light"))
 roofs of the Order, Article 84: slates 0.34, tiles 0.64, tiles on mud 0.98, each with purlins 0.05 and ceiling 0.15."""
 WALL_QUANTITY = {"light": {1: (11,), 2: (29, 15), 3: (46, 34, 18)}, "heavy": {1: (15,), 2: (33, 21), 3: (50, 39, 24)}}
 """Required wall quantity of storeys 1, 2, 3 of a house of so many storeys. [cm/m2 of floor] (Order, Article 46, Table
-2; heavy: tiles.
+2, until March 2025; heavy: tiles.
 compared: one and two storeys mnjk.blog, page on wall quantities; two storeys of the light row not on that excerpt: 29
 and 15 in a published calculation; three storeys not verified). The Order has no addition for snow."""
 REQUIRED_STRENGTH = {"light": {1: (0.28,), 2: (0.83, 0.37), 3: (1.34, 0.98, 0.43)},

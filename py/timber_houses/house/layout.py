@@ -119,6 +119,7 @@ saws = Record({"F0": Number("N", 100.0, 1e7), "FI": Number("N", 0.0, 1e7), "DU":
 SAWS_STATES = ("friction_force", "reload_share", "reload_target")
 """Keys of a wall type that follow from `saws`."""
 wall_type = Record({"multiplier": Number("", 0.0, 20.0, default=None),
+                    "quasi_multiplier": Number("", 0.0, 20.0, default=None),
                     "strength": Number("N/m", 10.0, 1e6, default=None),
                     "stiffness": Number("N/m per rad", 1e3, 1e9, default=None), "envelope": envelope, "nails": nails,
                     "saws": saws, "friction_force": Number("N/m", 0.0, 1e5, default=None),
@@ -136,6 +137,11 @@ _broken = Record({"count": Number("joints", 1, 10000, whole=True), "end": Choice
                  default=None)
 damage_region = Record({"structure": word(None), "side": Choice(SIDES), "storey": storey, "column_beam": _broken,
                         "brace_beam": _broken})
+diagnosis = Record({"rule": Choice(("weights_2025", "table_1981"), "weights_2025"),
+                    "roof": Choice(("metal", "slates", "tiles"), None),
+                    "wall": Choice(("boards", "metal", "siding", "mortar", "mud"), None),
+                    "solar": Number("kN/m2", 0.0, 2.0, default=0.0), "snow": Flag(False),
+                    "c0": Number("", 0.2, 0.3, default=0.2)}, default={})
 HOUSE = Record({
     "name": word(),
     "description": Text(""),
@@ -154,6 +160,7 @@ HOUSE = Record({
     "joint_types": MapOf(joint_type),
     "wall_types": MapOf(wall_type, default={}),
     "finishes": Flag(True),
+    "diagnosis": diagnosis,
     "joints": MapOf(joint_rule),
     "joint_search": Record({"plane_tolerance": Number("m", 0.0, 1e-3, True, default=1e-6),
                             "min_area": Number("m2", 0.0, 1.0, default=1e-3)}, default={}),

@@ -3,17 +3,17 @@
 
 A load becomes mass of its member, spread evenly: of the slab, or of the columns at both ends of a bay.
 """
-from itertools import product
-
 import numpy as np
 
 from ..base.gravity import mass_of
 from .geometry import polygon_area
-from .structure import ENDS
+from .plan import ROUNDING, outer_bays
+from .structure import OUTWARD
 
 
 def apply_loads(elements, structures, loads):
     """Set the masses of loaded elements. loads: of the house file; a structure's own ones override them key by key."""
+    earlier = []
     for structure in structures.values():
         own = structure.table["loads"]
         mine = {key: loads[key] if own[key] is None else own[key] for key in loads}
@@ -22,7 +22,8 @@ def apply_loads(elements, structures, loads):
             if element.kind in ("roof", "floor") and mine[element.kind] is not None:
                 element.set_mass(mass_of(mine[element.kind] * upper_area(element)))
         if mine["wall"]:
-            _hang_walls(structure, members, mine["wall"])
+            _hang_walls(structure, members, mine["wall"], earlier)
+            earlier.append(structure)
 
 
 def upper_area(element):
@@ -30,28 +31,38 @@ def upper_area(element):
     return sum(abs(polygon_area(face.points @ face.axes.T)) for face in element.solid.faces if face.normal[2] > 1e-6)
 
 
-def _hang_walls(structure, members, load):
-    """Add the weight [kN/m2] of the outer walls to the columns in them."""
-    added = {}
-    for low, high in outer_bays(members):
-        half = load * bay_length(low, high) * storey_height(structure, low.storey) / 2
-        for column in (low, high):
-            added[column.name] = added.get(column.name, 0.0) + mass_of(half)
-    for column in members:
-        if column.name in added:
-            column.set_mass(column.mass + added[column.name])
+def projected_area(element):
+    """Horizontal projection of the faces that look upwards. [m2]"""
+    return sum(abs(polygon_area(face.points @ face.axes.T)) * face.normal[2] for face in element.solid.faces
+               if face.normal[2] > 1e-6)
 
 
-def outer_bays(members):
-    """[(column, column)] of the bays in the outer walls: neighbouring columns of a storey on one side."""
-    bays = []
-    columns = [element for element in members if element.kind == "column"]
-    for axis, sides in ENDS.items():
-        for side, storey in product(sides, sorted({column.storey for column in columns})):
-            row = [column for column in columns if side in column.side and column.storey == storey]
-            row.sort(key=lambda column: column.solid.centroid["yx".index(axis)])
-            bays += zip(row, row[1:])
-    return bays
+def _hang_walls(structure, members, load, earlier):
+    """Add the weight [kN/m2] of the outer walls to the columns in them.
+
+    A wall that faces one of the earlier structures without a gap is common to both and counts there.
+    """
+    columns = {column.name: column for column in members if column.kind == "column"}
+    added = dict.fromkeys(columns, 0.0)
+    for storey in structure.storeys:
+        for nodes, side in outer_bays(structure, storey):
+            if not any(_is_common(structure, other, storey, nodes, side) for other in earlier):
+                ends = [columns[f"{structure.name}.column{storey}.x{x:g}y{y:g}"] for x, y in nodes]
+                for column in ends:
+                    half = load * bay_length(*ends) * storey_height(structure, storey) / 2
+                    added[column.name] += mass_of(half)
+    for name, mass in added.items():
+        if mass:
+            columns[name].set_mass(columns[name].mass + mass)
+
+
+def _is_common(structure, other, storey, nodes, side):
+    """Whether an outer bay lies against the floor of another structure at the middle of its height."""
+    layer = structure.storeys[storey]
+    beside = [k for k, its in other.storeys.items() if its.z0 <= (layer.z0 + layer.z1) / 2 <= its.z1]
+    clear = structure.table["margin"] + other.table["margin"] + 10 * ROUNDING
+    middle = np.mean([[structure.position(axis, node) for axis, node in zip("xy", pair)] for pair in nodes], axis=0)
+    return any(other.plans[k].has_floor(middle + clear * np.array(OUTWARD[side])) for k in beside)
 
 
 def bay_length(low, high):

@@ -68,8 +68,15 @@ def _strip(structure, layer, kind, name, line, start, end):
     span = {line["along"]: (start, end), across: (centre - width / 2, centre + width / 2)}
     low, high = ([span["x"][i], span["y"][i], z] for i, z in ((0, layer.z0), (1, layer.z1)))
     return structure.element(kind, name, box(low, high), layer.table, line["where"], fixed=layer.table["fixed"],
-                             storey=layer.storey, side=structure.sides(**{across: line["at"]}),
+                             storey=layer.storey, side=_strip_sides(structure, layer, line, start, end),
                              section=(width, layer.z1 - layer.z0))
+
+
+def _strip_sides(structure, layer, line, start, end):
+    """Sides of the house of a strip, below or above a storey."""
+    plan = structure.plans.get(max(layer.storey, 1))
+    at = structure.position(ACROSS[line["along"]], line["at"])
+    return plan.sides(line["along"], at, start, end) if plan else frozenset()
 
 
 def lay_floors(structure, layer):
@@ -91,7 +98,7 @@ def lay_columns(structure, layer):
         centre = np.array([structure.position("x", x), structure.position("y", y)])
         vertices = box([*(centre - section / 2), layer.z0], [*(centre + section / 2), layer.z1])
         elements.append(structure.element("column", f"column{layer.storey}.x{x:g}y{y:g}", vertices, layer.table, where,
-                                          storey=layer.storey, side=structure.sides(x=x, y=y),
+                                          storey=layer.storey, side=structure.column_sides(layer.storey, x, y),
                                           section=(section, section)))
     return elements
 

@@ -77,6 +77,8 @@ class JointSpec(JointValues):
     side: frozenset = frozenset()
     end: str = ""        # columns and braces: 'top' or 'bottom' end of a
     group: str = ""
+    multiplier: float = 0.0  # of a sheet of a bearing wall, as the rules count it [-]
+    quasi_multiplier: float = 0.0  # of panels, as quasi-bearing wall [-]
 
     def __repr__(self):
         return f"<JointSpec {self.name}: {self.kind}, {self.law}{', broken' if self.broken else ''}>"
@@ -106,7 +108,8 @@ class HouseModel:
     snow_depth: float  # [m]
     storey_levels: dict  # group -> {storey: (z foot, z head) of its columns [m]}
     grids: dict  # group -> {'x': positions of its nodes [m], 'y': likewise}
-    multipliers: dict = field(default_factory=dict)  # wall type -> multiplier of the code [-], for the diagnosis
+    plans: dict = field(default_factory=dict)  # group -> {storey: FloorPlan}
+    code: dict = field(default_factory=dict)  # group -> settings of the diagnosis, 'wall_load': loads.wall [kN/m2]
 
     def __repr__(self):
         return (f"<HouseModel {self.name}: {len(self.elements)} elements, {self.joints_text}, {self.snow_depth:g} m of"

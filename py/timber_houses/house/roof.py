@@ -17,13 +17,12 @@ import numpy as np
 
 from .errors import HouseError
 from .geometry import Polyhedron, box
-from .structure import ACROSS, ENDS
+from .structure import ACROSS, ENDS, OUTWARD
 
 SEAT = 0.05
 """Least reach of the soffit beyond the grid line: about the inner half of a wall plate. [m]"""
 SPACING = 0.91
 """Of the tie beams of a gable roof along its ridge and of the posts of a mono-pitch roof, at most. [m]"""
-OUTWARD = {"west": (-1, 0), "east": (1, 0), "south": (0, -1), "north": (0, 1)}
 
 
 @dataclass(frozen=True, eq=False)

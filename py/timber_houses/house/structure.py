@@ -13,6 +13,8 @@ from .model import Element
 ACROSS = {"x": "y", "y": "x"}
 ENDS = {"x": ("west", "east"), "y": ("south", "north")}
 """Sides of a house at the lower and at the higher end of an axis."""
+OUTWARD = {"west": (-1, 0), "east": (1, 0), "south": (0, -1), "north": (0, 1)}
+"""Horizontal unit vectors."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,6 +42,7 @@ class Structure:
         self.last = {axis: len(self.grid[axis]) - 1 for axis in "xy"}
         self.layers = _layers(table["stack"], name)
         self.storeys = {layer.storey: layer for layer in self.layers if layer.kind == "columns"}
+        self.plans = {}  # {storey: FloorPlan}
         self.element_count = 0
 
     def position(self, axis, node):
@@ -71,10 +74,14 @@ class Structure:
                                  " is empty; give two different nodes")
         return {axis: (min(area[axis]), max(area[axis])) for axis in "xy"}
 
-    def sides(self, **nodes):
-        """Walls on which a node (x=, y=) or a line (only one of them) lies."""
-        return frozenset(wall for axis, node in nodes.items()
-                         for wall, end in zip(ENDS[axis], (0, self.last[axis])) if node == end)
+    def outer_sides(self, storey, along, at, start, end):
+        """Side of the house of a stretch of a grid line between two nodes in a storey; empty inside the house."""
+        return self.plans[storey].sides(along, self.position(ACROSS[along], at), *(
+            self.position(along, node) for node in sorted((start, end))))
+
+    def column_sides(self, storey, x, y):
+        """Sides of the house whose outer walls meet at a node in a storey."""
+        return self.plans[storey].sides_at(self.position("x", x), self.position("y", y))
 
     def check_nodes(self, axis, nodes, where):
         """HouseError when a node lies outside the grid."""

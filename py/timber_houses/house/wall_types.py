@@ -43,6 +43,9 @@ ROUNDING = 1e-9
 """Of shears. [-]"""
 LEAST_SHEAR = 100.0
 """Of the largest shear of an envelope, below which it is taken to be in kN. [N/m]"""
+QUASI_LIMIT = 1.5
+"""Largest multiplier of a quasi-bearing wall. [-] (Notification 1100 as of 2025; compared: kenchiku-spec of
+wall_quantity.py)"""
 FORMS = ("envelope", "nails", "saws")
 """Of a type's shear, in place of that of its multiplier."""
 FRICTION = 0.1
@@ -238,6 +241,17 @@ def multiplier(table):
         return nailed_wall(table["nails"]).allowable / table["nails"]["board"]["width"] / ALLOWABLE
     drifts, shears = np.transpose([(0.0, 0.0), *envelope(table, "design")])
     return float(min(np.interp(RATED_DRIFT, drifts, shears), 2 / 3 * shears.max())) / ALLOWABLE
+
+
+def quasi_multiplier(table, panel):
+    """By which panels count as quasi-bearing wall. panel: their height over the clear height [-]
+
+    `panel_share` (boards 0.6, wood lath 1) times the multiplier times the share of the height; a lining has a
+    `quasi_multiplier`, as it counts as nothing else. (Notification 1100 as of 2025; compared: stmaki.com, page 2775:
+    gypsum 0.9 x 0.6 x 240 cm / 284.4 cm = 0.45)
+    """
+    base = multiplier(table) if table["quasi_multiplier"] is None else table["quasi_multiplier"]
+    return min(QUASI_LIMIT, table["panel_share"] * base * panel)
 
 
 def _rated(table, level):

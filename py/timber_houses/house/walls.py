@@ -21,7 +21,7 @@ from .loads import bay_length
 from .members import column_plan, line_name, nodes_on_line, require_column
 from .model import JointSpec
 from .structure import ACROSS
-from .wall_types import cycles, envelope
+from .wall_types import cycles, envelope, multiplier, quasi_multiplier
 
 SHARE = 0.5
 """Of a wall's shear, between beams and between columns. [-]"""
@@ -48,6 +48,13 @@ class Bay:
     def length(self):
         """Between the axes of the columns. [m]"""
         return bay_length(self.low, self.high)
+
+    def multipliers(self, table):
+        """(multiplier, quasi-bearing multiplier) by which the rules count a type in this bay: a bay with an opening has
+        neither, one with panels the second. [-]"""
+        if self.opening != "none":
+            return 0.0, 0.0
+        return (multiplier(table), 0.0) if self.panel is None else (0.0, quasi_multiplier(table, self.panel))
 
     def share(self, table):
         """Of the strength of a bearing wall of this type without an opening. [-]"""
@@ -76,12 +83,13 @@ def _bays(structure, line, by_name):
     along, bays = line["along"], []
     for storey in line["storeys"] or structure.storeys:
         for at in line["at"]:
-            nodes, side = _nodes(structure, line, storey, at), structure.sides(**{ACROSS[along]: at})
+            nodes = _nodes(structure, line, storey, at)
             places = [(node, at) if along == "x" else (at, node) for node in nodes]
             columns = [by_name[f"{structure.name}.column{storey}.x{x:g}y{y:g}"] for x, y in places]
             start = f"{structure.name}.wall{storey}.{line_name(along, at)}"
-            bays += [Bay(f"{start}.{first:g}-{last:g}", low, high, side, line["opening"], line["panel"],
-                     line.where)
+            bays += [Bay(f"{start}.{first:g}-{last:g}", low, high,
+                         structure.outer_sides(storey, along, at, first, last), line["opening"], line["panel"],
+                         line.where)
                      for first, last, low, high in zip(nodes, nodes[1:], columns, columns[1:])]
     return bays
 
@@ -112,7 +120,8 @@ def _joints(bay, name, members, data, level):
     beams, columns = (_values(bay, table, level, lever, height / lever) for lever in (height, bay.length))
     common = dict(points=(low.centroid + high.centroid)[None] / 2, area=0.0, type=name, ks=0.0, per="spring",
                   storey=bay.low.storey, side=bay.side, group=bay.low.group,
-                  initial_damping=data["law"]["damping_stiffness"] == "initial")
+                  initial_damping=data["law"]["damping_stiffness"] == "initial",
+                  **dict(zip(("multiplier", "quasi_multiplier"), bay.multipliers(table))))
     return [
         JointSpec(a=below.name, b=above.name, normal=along / np.linalg.norm(along), kind=WALL_BEAM,
                   label=f"{label}.beams", **beams, **common),

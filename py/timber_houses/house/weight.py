@@ -2,7 +2,6 @@
 """Weight of a house by storey, for summaries and drawings. Fixed members (foundations, anchored sills) do not count."""
 from collections import Counter
 
-import numpy as np
 
 from ..base.gravity import weight_of
 
@@ -15,7 +14,7 @@ def weigh(model):
 
     total_kn                of all members that can move, without snow
     snow_kn                 of the snow
-    floor_area_m2           sum over the storeys of the area between the axes of the outer columns
+    floor_area_m2           sum over the storeys of the floor between the axes of the outer columns (plan.py)
     per_floor_area_kn_m2    total over floor area
     storeys                 {structure: {storey: {level_kn, carried_kn}}}: of the level at its top, with half the
     columns and walls below and
@@ -30,14 +29,8 @@ def weigh(model):
 
 
 def floor_area(model, group, storey):
-    """Area between the axes of the outer columns of a storey. [m2]"""
-    return float(np.prod(np.ptp(column_axes(model, group, storey), axis=0)))
-
-
-def column_axes(model, group, storey):
-    """(2, 2) lowest and highest axes of the columns of a storey [m], zero without any."""
-    axes = np.array([c.solid.centroid[:2] for c in model.of_kind("column", group=group) if c.storey == storey])
-    return np.array([axes.min(0), axes.max(0)]) if len(axes) else np.zeros((2, 2))
+    """Of a storey, between the axes of its outer columns. [m2]"""
+    return model.plans[group][storey].area
 
 
 def _storeys(model, group):

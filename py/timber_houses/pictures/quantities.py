@@ -13,7 +13,7 @@ from ..recording.peaks import COLUMNS, JOINTS, rows
 from ..recording.quantities import BAND_TEXT, Storeys
 from ..recording.quantities import NAME as STOREYS
 from ..recording.summary import Summary
-from ..text.english import direction_name, period_text, ratio, sentence
+from ..text.english import direction_name, mode_name, period_text, ratio, sentence
 from ..text.lines import before
 from .energy import TERMS
 from .figures import A4, drawable, fitting_size, heading, heading_height, new_figure
@@ -180,7 +180,7 @@ def draw_modes(axis, results):
             sign = 1 if shape[-1] >= 0 else -1
             axis.plot([sign * value for value in shape], range(len(shape)), "o-", ms=3, lw=width,
                       color=colors.DIRECTIONS[direction])
-            lines.append(f"{direction_name(direction)} {when}: {period_text(mode)},"
+            lines.append(f"{mode_name(mode)} {when}: {period_text(mode)},"
                          f" {100 * mode.mass_share[direction]:.0f} % of the mass")
     if results.summary.collapsed:
         lines.append("after: none, the house has collapsed")

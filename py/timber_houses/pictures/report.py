@@ -21,9 +21,9 @@ from ..motion.measures import stated_intensity
 from ..recording import frames as recording
 from ..recording import verdict
 from ..recording.failures import first_failures
-from ..text.english import counted, directed, direction_name, period_text, sentence, storey_name
+from ..text.english import counted, directed, mode_name, period_text, sentence, storey_name
 from ..text.lines import before, lines
-from . import REPORT, fonts, quantities, report_pictures
+from . import REPORT, fonts, pushover, quantities, report_pictures
 from .panels import panels
 from .style import default_style
 
@@ -76,6 +76,7 @@ def page(frames, results):
         spectra=picture(report_pictures.motion(frames)) if frames.motion else None,
         periods=summary.quantities.modes.before is not None,
         until=before(summary.quantities),
+        pushover=pushover_picture(summary),
         storeys=storeys(summary),
         shots=picture(*report_pictures.shots(frames)),
         lines=lines(summary),
@@ -98,6 +99,14 @@ def picture(figure, part=None):
     return f"data:image/png;base64,{base64.b64encode(data.getvalue()).decode()}"
 
 
+def pushover_picture(summary):
+    """Pushover curves of the main structure; None without walls and braces, or in an earlier run's summary."""
+    name = next(iter(summary.structures))
+    structure = summary.diagnosis.structures.get(name)
+    drawn = structure and pushover.figure(name, structure)
+    return picture(drawn) if drawn else None
+
+
 # --- parts of the page ------------------------------------------------------------------------------------------------
 
 
@@ -112,7 +121,7 @@ def house(frames, summary, failures):
              "orange: joints broken from the start": any(frames.joints.damaged),
              "numbers: first failures": failures}
     legend = "; ".join(["Plans, north up", *(mark for mark, occurs in marks.items() if occurs)])
-    periods = ", ".join(f"{direction_name(axis)} {period_text(mode)}" for axis in ("ns", "ew")
+    periods = ", ".join(f"{mode_name(mode)} {period_text(mode)}" for axis in ("ns", "ew")
                         if (mode := summary.main_mode("before", axis)))
     index = f"By the diagnosis of engineers: {summary.diagnosis.sentence}. {summary.diagnosis.disagreement}"
     natural = f" Natural periods {periods}." if periods else ""

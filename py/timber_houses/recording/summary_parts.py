@@ -41,6 +41,7 @@ class Diagnosis:
     structures: dict
     sentence: str
     disagreement: str
+    rule: str | None = optional()
 
 
 @dataclass(frozen=True)

@@ -300,6 +300,19 @@ def joint_place(kind, storey, side):
     return f"{kind.replace('_', '-')} joint, {f'storey {storey}' if storey.isdigit() else storey}, {walls}"
 
 
+COUPLED = 0.5
+"""Smaller over larger share of the mass of the two horizontal directions from which a mode has both. [-]"""
+
+
+def mode_name(mode):
+    """'N-S', or of a coupled mode 'coupled N-S and E-W', the direction of more mass first."""
+    shares = {axis: mode.mass_share[axis] for axis in ("ns", "ew")}
+    other = min(shares, key=shares.get)
+    if shares[other] < COUPLED * shares[mode.direction] or other == mode.direction:
+        return direction_name(mode.direction)
+    return f"coupled {direction_name(mode.direction)} and {direction_name(other)}"
+
+
 def period_text(mode):
     """'0.31 s', or 'unstable'."""
     return "unstable" if mode.period_s is None else f"{mode.period_s:.2f} s"

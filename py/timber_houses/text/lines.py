@@ -4,7 +4,7 @@ from ..base.gravity import weight_of
 from ..recording import verdict
 from ..recording.history import DIRECTIONS
 from ..recording.quantities import BAND_TEXT
-from .english import at, counted, directed, direction_name, event, joints, period_text, ratio, storey_name
+from .english import at, counted, directed, direction_name, event, joints, mode_name, period_text, ratio, storey_name
 
 MOST = 10
 """Number of lines."""
@@ -98,7 +98,7 @@ def periods(summary):
     """Main natural periods before and after the run."""
     texts = []
     for when in ("before", "after"):
-        parts = [f"{direction_name(axis)} {period_text(mode)}" for axis in DIRECTIONS
+        parts = [f"{mode_name(mode)} {period_text(mode)}" for axis in DIRECTIONS
                  if (mode := summary.main_mode(when, axis))]
         texts += [f"{when} the run {', '.join(parts)}"] if parts else []
     return f"Natural periods {'; '.join(texts)}." if texts else ""

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Pushover curve of each storey and direction: its shear over its drift at first loading, floors rigid, no torsion.
+
+Walls have their envelopes at the level of the house; braces pull with the springs of both ends until the weaker one
+breaks and bear nothing in compression. Column ends and P-delta are left out.
+"""
+from collections import defaultdict
+
+import numpy as np
+
+from ..base.joint_kinds import WALL_COLUMN
+from .loads import bay_length
+
+SHARES = 2.0
+"""Halves of a wall: each spring stands for one. [-] (walls.py, SHARE)"""
+DIRECTIONS = ("ew", "ns")
+
+
+def pushover(model, group):
+    """{(storey, direction): [[drift [-], shear [kN]]]}: piecewise linear, from zero to the drift at which no wall and
+    brace is left, or the last point of those with a residual strength. Empty lists without any."""
+    curves = defaultdict(list)
+    for joint in model.joints:
+        if joint.group == group and joint.kind == WALL_COLUMN and not joint.broken:
+            low, high = model.element(joint.a), model.element(joint.b)
+            curves[low.storey, _direction(low, high)].append(_wall(joint, low, high))
+    for brace in model.of_kind("brace", group=group):
+        if (curve := _brace(model, brace)) is not None:
+            along = np.ptp(brace.vertices, axis=0)
+            curves[brace.storey, DIRECTIONS[int(along[1] > along[0])]].append(curve)
+    return {(storey, direction): _sum(curves[storey, direction])
+            for storey in model.storey_levels[group] for direction in DIRECTIONS}
+
+
+def _direction(low, high):
+    return DIRECTIONS[int(np.argmax(np.abs(high.solid.centroid - low.solid.centroid)[:2]))]
+
+
+def _wall(joint, low, high):
+    """(drifts, shears [N]) of a sheet. Of the spring between its columns: stretch = length x drift, force = half of the
+    shear x height / length."""
+    length, height = bay_length(low, high), float(np.ptp(low.vertices[:, 2]))
+    stretches, forces = np.transpose([(0.0, 0.0), *joint.envelope])
+    return stretches / length, SHARES * forces * length / height
+
+
+def _brace(model, brace):
+    """(drifts, shears [N]) of a brace in tension; None if an end is loose or never breaks."""
+    ends = {"bottom": [], "top": []}
+    for joint in model.joints:
+        if joint.a == brace.name and not joint.broken:
+            ends[joint.end].append(joint)
+    if not all(ends.values()):
+        return None
+    stiffness, strength = zip(*((sum(_of_all(j, j.kn) for j in joints), sum(_of_all(j, j.strength) for j in joints))
+                                for joints in ends.values()))
+    rise, run = np.ptp(brace.vertices[:, 2]), np.ptp(brace.vertices[:, :2], axis=0).max()
+    slope, force = run / np.hypot(rise, run), min(strength)
+    if not np.isfinite(force):
+        return None
+    drift = force * sum(1 / k for k in stiffness) / (slope * rise)
+    return np.array([0.0, drift, drift * (1 + 1e-6)]), np.array([0.0, force * slope, 0.0])
+
+
+def _of_all(joint, value):
+    """Of a joint as a whole, from a value of it or of each of its springs."""
+    return value * (1 if joint.per == "joint" else len(joint.points))
+
+
+def _sum(curves):
+    """Points of the sum of piecewise linear curves, rounded: drifts to 1e-6, shears to 1 N."""
+    if not curves:
+        return []
+    drifts = np.unique(np.concatenate([drift for drift, _ in curves]).round(6))
+    total = sum(np.interp(drifts, drift, shear) for drift, shear in curves)
+    return [[round(float(drift), 6), round(float(shear) / 1000, 3)] for drift, shear in zip(drifts, total)]
