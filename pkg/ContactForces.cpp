@@ -166,17 +166,19 @@ ContactForces::IslandResult ContactForces::solveIsland(timber::Islands::Island i
 	const auto joint = [&](int k) -> const ImplicitJoint& { return joints[island[k] - int(pairs.size())]; };
 	solver.begin(bodies, scene->dt, sweeps);
 	for (int k = 0; k < pairCount; ++k)
-		solver.addPair(pair(k).id1, pair(k).id2, pair(k).phys->records.data(), pair(k).points);
+		solver.addPair(pair(k).id1, pair(k).id2, pair(k).points);
 	for (int k = pairCount; k < count; ++k)
 		solver.addJoint(joint(k).joint->id1, joint(k).joint->id2);
 	timber::forAll(count, [&](int k) {
 		if (k < pairCount)
-			timber::prepareContacts(solver, k, pair(k).phys->properties(), pair(k).geom->contactPoints);
+			timber::prepareContacts(solver, k, pair(k).phys->properties(), pair(k).geom->contactPoints,
+			        pair(k).phys->records);
 		else prepareJoint(solver, k - pairCount, joint(k), *scene);
 	});
 	result.convergence = solver.solve(tolerance);
 	for (int k = 0; k < pairCount; ++k) {
-		const timber::PairForce f = timber::storeForces(solver, k, pair(k).phys->properties(), result.energies);
+		const timber::PairForce f = timber::storeForces(
+		        solver, k, pair(k).phys->properties(), pair(k).phys->records, result.energies);
 		pair(k).phys->normalForce = f.normalOnB;
 		pair(k).phys->shearForce = f.onB - f.normalOnB;
 		addForce(island[k], f);

@@ -15,18 +15,13 @@ namespace serialization {
 	{
 		ar& make_nvp("timeLeft", i.timeLeft) & make_nvp("rebound", i.rebound) & make_nvp("load", i.load);
 	}
-	template <class Archive> void serialize(Archive& ar, timber::PointHistory& p, const unsigned int)
+	template <class Archive> void serialize(Archive& ar, timber::PointRecord& p, const unsigned int)
 	{
 		ar& make_nvp("id", p.id.bits) & make_nvp("excess", p.excess) & make_nvp("crushed", p.crushed)
 		        & make_nvp("overlap", p.overlap) & make_nvp("stiffness", p.stiffness);
 		ar& make_nvp("normal", p.normalForce) & make_nvp("energy", p.energy) & make_nvp("shear", p.shearForce)
 		        & make_nvp("dashpot", p.dashpotForce) & make_nvp("normalStored", p.normalStored)
 		        & make_nvp("shearStored", p.shearStored) & make_nvp("impact", p.impact);
-	}
-	/// The step of the solver is not saved.
-	template <class Archive> void serialize(Archive& ar, timber::PointRecord& p, const unsigned int)
-	{
-		ar& make_nvp("history", static_cast<timber::PointHistory&>(p));
 	}
 }
 }

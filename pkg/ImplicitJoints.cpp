@@ -8,12 +8,13 @@ namespace {
 	Matrix3r axesOf(const Scene& scene, Body::id_t id) { return bodyAt(scene, id)->state->ori.toRotationMatrix(); }
 
 	/// Modes of a joint's bodies, of which one is free. qA, qB: their orientations.
+	/// h: step [s].
 	void updateModes(TimberJoint& joint, const Quaternionr& qA, const Quaternionr& qB, const timber::SolverBody& a,
-	        const timber::SolverBody& b)
+	        const timber::SolverBody& b, Real h)
 	{
 		const timber::JointState now { joint.intactSprings(), joint.stiffness(), timber::pairInverseMass(a, b),
 			a.inverseInertia.trace() + b.inverseInertia.trace(), qA.conjugate() * qB };
-		if (!joint.modes.state.fits(now))
+		if (!joint.modes.state.fits(now, joint.modes.largestTurn(h, joint.damping(1))))
 			joint.modes = timber::jointModes(a, b, qA.toRotationMatrix(), joint.springGroup(), now);
 	}
 
@@ -25,7 +26,7 @@ namespace {
 		if (!b1 || !b2) return false;
 		const timber::SolverBody &a = bodies[joint.id1], &b = bodies[joint.id2];
 		if (timber::pairInverseMass(a, b) == 0) return false;
-		updateModes(joint, b1->state->ori, b2->state->ori, a, b);
+		updateModes(joint, b1->state->ori, b2->state->ori, a, b, scene.dt);
 		return true;
 	}
 

@@ -13,7 +13,7 @@ namespace serialization {
 	template <class Archive> void serialize(Archive& ar, timber::JointModes& m, const unsigned int)
 	{
 		ar& make_nvp("centre", m.centre) & make_nvp("modes", m.modes) & make_nvp("frequencies", m.frequencies);
-		ar& make_nvp("twists", m.twists);
+		ar& make_nvp("twists", m.twists) & make_nvp("sensitivity", m.sensitivity);
 		ar& make_nvp("springs", m.state.springs) & make_nvp("normal", m.state.stiffness.normal)
 		        & make_nvp("shear", m.state.stiffness.shear);
 		ar& make_nvp("pairInverseMass", m.state.pairInverseMass)

@@ -43,46 +43,47 @@ namespace {
 
 	/// Impacts of a pair's points: prepare phase. Those that touch in this step, and those that are in an impact.
 	struct Impacts {
-		const SolverPair& pair;
+		const PointRecord* records;
+		PointStep* steps;
+		size_t count;
 
-		static bool begins(const PointRecord& r)
+		bool begins(size_t i) const
 		{
-			return r.impact.isPending() && r.normalForce > 0 && r.step.response() > 0
-			        && r.step.before[0] < 0;
+			const PointRecord& r = records[i];
+			return r.impact.isPending() && r.normalForce > 0 && steps[i].response() > 0
+			        && steps[i].before[0] < 0;
 		}
 		/// Change of a point's normal velocity by unit impulses of all of them: points of a face share the
 		/// impulse. Not less than its own one over their number: they do not hold each other down. [1/kg]
 		double commonResponse(const PointStep& step) const
 		{
 			PairVector all {};
-			int count = 0;
-			for (size_t i = 0; i < pair.count; ++i) {
-				const PointRecord& r = pair.points[i];
-				if (!begins(r) && !r.impact.isActive()) continue;
-				all.add(r.step.rows[0], 1);
-				++count;
+			int sharing = 0;
+			for (size_t i = 0; i < count; ++i) {
+				if (!begins(i) && !records[i].impact.isActive()) continue;
+				all.add(steps[i].rows[0], 1);
+				++sharing;
 			}
-			return std::max(all.dots(step.rows)[0], step.response() / count);
+			return std::max(all.dots(step.rows)[0], step.response() / sharing);
 		}
 	};
 
-	void prepareImpacts(const SolverPair& solverPair, const PairProperties& pair, double h)
+	void prepareImpacts(const Impacts& impacts, const PairProperties& pair, double h, PointRecord* records)
 	{
-		const Impacts impacts { solverPair };
 		std::vector<ImpactState> started;
-		for (size_t i = 0; i < solverPair.count; ++i) {
-			const PointRecord& r = solverPair.points[i];
-			if (!Impacts::begins(r)) continue;
-			started.resize(solverPair.count);
+		for (size_t i = 0; i < impacts.count; ++i) {
+			if (!impacts.begins(i)) continue;
+			const PointRecord& r = records[i];
+			const PointStep& step = impacts.steps[i];
+			started.resize(impacts.count);
 			started[i] = startImpact({ r.overlap, r.normalForce, r.stiffness },
-			        { pair.dampingRatio, pair.mass, impacts.commonResponse(r.step), -r.step.before[0],
+			        { pair.dampingRatio, pair.mass, impacts.commonResponse(step), -step.before[0],
 			                pair.strength, r.crushed },
 			        h);
 		}
-		for (size_t i = 0; i < solverPair.count; ++i) {
-			PointRecord& r = solverPair.points[i];
-			if (!started.empty() && Impacts::begins(r)) r.impact = started[i];
-			r.step.rebound = r.impact.rebound;
+		for (size_t i = 0; i < impacts.count; ++i) {
+			if (!started.empty() && impacts.begins(i)) records[i].impact = started[i];
+			impacts.steps[i].rebound = records[i].impact.rebound;
 		}
 	}
 
@@ -95,14 +96,15 @@ namespace {
 	}
 
 	/// Impacts of a pair's points after a step. impulse: of the pair, with angular impulses [N s, N m s].
-	void followImpacts(const SolverPair& solverPair, const SolverBodies& bodies, const PairForce& impulse, double h)
+	void followImpacts(const SolverPair& pair, const PointStep* steps, const SolverBodies& bodies,
+	        const PairForce& impulse, double h, PointRecord* records)
 	{
-		for (size_t i = 0; i < solverPair.count; ++i) {
-			PointRecord& r = solverPair.points[i];
-			if (!r.impact.isActive()) continue;
-			const double change = bodies.velocity<double>(r.step.armA, r.step.armB).dot(r.step.axes[0])
-			        - r.step.before[0];
-			r.impact.pass(h, r.step.bounded, changeByPair(r.step, bodies, impulse) - change);
+		for (size_t i = 0; i < pair.count; ++i) {
+			if (!records[i].impact.isActive()) continue;
+			const PointStep& step = steps[i];
+			const double change
+			        = bodies.velocity<double>(step.armA, step.armB).dot(step.axes[0]) - step.before[0];
+			records[i].impact.pass(h, step.bounded, changeByPair(step, bodies, impulse) - change);
 		}
 	}
 
@@ -173,28 +175,34 @@ namespace {
 
 } // namespace
 
-void prepareContacts(
-        ContactSolver& solver, size_t k, const PairProperties& pair, const std::vector<ContactPoint>& points)
+void prepareContacts(ContactSolver& solver, size_t k, const PairProperties& pair,
+        const std::vector<ContactPoint>& points, std::vector<PointRecord>& records)
 {
 	const SolverPair& solverPair = solver.pair(k);
-	assert(points.size() == solverPair.count);
+	const size_t count = solverPair.count;
+	assert(points.size() == count && records.size() == count);
 	assert(pair.mass > 0 && pair.friction >= 0 && pair.shearRatio > 0 && pair.dampingRatio >= 0 && pair.power >= 1);
 	const SolverBodies bodies = solver.bodiesOf(solverPair);
-	inLanes(points.size(), [&](auto number, size_t i) {
+	inLanes(count, [&](auto number, size_t i) {
 		using Number = decltype(number);
-		const Group<Number, const ContactPoint> point(&points[i], points.size() - i);
-		const Group<Number, const PointRecord> record(solverPair.points + i, points.size() - i);
+		const Group<Number, const ContactPoint> point(&points[i], count - i);
+		const Group<Number, const PointRecord> record(&records[i], count - i);
 		solver.prepare<Number>(k, i, stepInput<Number>(bodies, pair, solver.stepLength(), point, record));
 	});
-	for (size_t i = 0; i < solverPair.count; ++i)
-		solverPair.points[i].step.idle = solverPair.points[i].isIdle();
-	if (!solver.isExplicit()) prepareImpacts(solverPair, pair, solver.stepLength());
+	PointStep* steps = solver.stepsOf(solverPair);
+	for (size_t i = 0; i < count; ++i)
+		steps[i].idle = records[i].isIdle();
+	if (!solver.isExplicit())
+		prepareImpacts({ records.data(), steps, count }, pair, solver.stepLength(), records.data());
 }
 
-PairForce storeForces(ContactSolver& solver, size_t k, const PairProperties& pair, PairEnergies& energies)
+PairForce storeForces(ContactSolver& solver, size_t k, const PairProperties& pair, std::vector<PointRecord>& records,
+        PairEnergies& energies)
 {
 	const SolverPair& solverPair = solver.pair(k);
+	assert(records.size() == solverPair.count);
 	const SolverBodies bodies = solver.bodiesOf(solverPair);
+	const PointStep* steps = solver.stepsOf(solverPair);
 	const double h = solver.stepLength();
 	Sums<12> impulses;
 	Sums<6> sums(energies.dashpotNormal, energies.dashpotShear, energies.friction, energies.elasticNormal,
@@ -203,8 +211,8 @@ PairForce storeForces(ContactSolver& solver, size_t k, const PairProperties& pai
 		using Number = decltype(number);
 		using Vec = Vec3Of<Number>;
 		const size_t count = solverPair.count - i;
-		const Group<Number, PointRecord> record(solverPair.points + i, count);
-		const Group<Number, PointStep> step(count, [&](size_t n) { return &solverPair.points[i + n].step; });
+		const Group<Number, PointRecord> record(&records[i], count);
+		const Group<Number, const PointStep> step(steps + i, count);
 		const Vec armA = step.get(&PointStep::armA), armB = step.get(&PointStep::armB);
 		Vec axes[3];
 		Number p[3];
@@ -260,7 +268,7 @@ PairForce storeForces(ContactSolver& solver, size_t k, const PairProperties& pai
 	});
 	energies = { sums[0], sums[1], sums[2], sums[3], sums[4], sums[5] };
 	const PairForce impulse { impulses.vector(0), impulses.vector(3), impulses.vector(6), impulses.vector(9) };
-	followImpacts(solverPair, bodies, impulse, h);
+	followImpacts(solverPair, steps, bodies, impulse, h, records.data());
 	return { impulse.onB / h, impulse.torqueA / h, impulse.torqueB / h, impulse.normalOnB / h };
 }
 

@@ -4,7 +4,7 @@
 ///     2. prepareContacts(): the points' steps for the solver, warm start included;
 ///     3. storeForces(): forces on the bodies, history and energies from the solver's impulses.
 ///
-/// Account of a spring (PointHistory::normalStored, shearStored), between two placements: a step adds the work -p (v +
+/// Account of a spring (PointRecord::normalStored, shearStored), between two placements: a step adds the work -p (v +
 /// v') / 2 that the bodies do on the point with the impulse p of spring and dashpot. What exceeds the energy of the law
 /// there has been dissipated. Rule (5) of the solver keeps the accounts from going below zero but for errors of the
 /// sweeps, which later work settles. No dissipation is negative. The normal spring has at most the energy at its
@@ -34,9 +34,9 @@ template <class Law>
 double elasticPair(const Law& law, const ElasticInput& input, const std::vector<ContactPoint>& points,
         std::vector<PointRecord>& records);
 
-/// Prepares the points of the solver's k-th pair.
-void prepareContacts(
-        ContactSolver& solver, size_t k, const PairProperties& pair, const std::vector<ContactPoint>& points);
+/// Prepares the points of the solver's k-th pair. records: in-out, impacts may begin.
+void prepareContacts(ContactSolver& solver, size_t k, const PairProperties& pair,
+        const std::vector<ContactPoint>& points, std::vector<PointRecord>& records);
 
 /// Total force and torques of a pair's points; each torque about the body's own centre. [N, N m]
 struct PairForce {
@@ -51,7 +51,8 @@ struct PairEnergies {
 	double crushing = 0; ///< dissipated by points at their strength
 };
 
-/// Stores forces, history and energies of the points of the k-th pair. energies: added to.
-PairForce storeForces(ContactSolver& solver, size_t k, const PairProperties& pair, PairEnergies& energies);
+/// Stores forces, history and energies of the points of the k-th pair. records: in-out; energies: added to.
+PairForce storeForces(ContactSolver& solver, size_t k, const PairProperties& pair, std::vector<PointRecord>& records,
+        PairEnergies& energies);
 
 } // namespace timber

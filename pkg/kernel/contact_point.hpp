@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Record of a contact point from touch to separation. Its geometry is the ContactPoint of the manifold with the same
-/// index; its history is saved with the scene; its step is prepared for the solver, read and changed by the sweeps, and
-/// not saved.
+/// A contact point from touch to separation. Its geometry is the ContactPoint of the manifold with the same index; its
+/// record is saved with the scene; its step is prepared for the solver, which owns it, and lasts for one time step.
 #pragma once
 #include "impact.hpp"
 #include "manifold.hpp"
@@ -23,12 +22,20 @@ template <class Number> struct PointSprings {
 };
 
 /// History of a contact point.
-struct PointHistory : PointSprings<double> {
+struct PointRecord : PointSprings<double> {
 	FeatureId id;
 	Vec3 dashpotForce = Vec3::Zero(); ///< contact force of the last step minus the elastic force, on B [N]
 	/// A: work of the bodies on the springs that these have neither returned nor dissipated [J]
 	double normalStored = 0, shearStored = 0;
 	ImpactState impact;
+
+	/// Without force, stiffness and energy: its impulse is zero, and a step leaves its history as it is. Crushed points
+	/// are idle until the surfaces come as close again.
+	bool isIdle() const
+	{
+		return stiffness == 0 && normalForce == 0 && normalStored == 0 && shearStored == 0 && !impact.isActive()
+		        && shearForce.isZero(0) && dashpotForce.isZero(0);
+	}
 };
 
 /// A contact point in a step of the solver. Symbols: contact_solver.hpp.
@@ -48,22 +55,11 @@ struct PointStep {
 	double strength; ///< h F_Y
 	bool bounded; ///< whether (6) limited the impulse in the last visit
 	bool idle; ///< no impulse, whatever the bodies do
+	// Not read by the sweeps
 	Vec3 axes[3]; ///< unit: normal from A to B, tangent, second tangent
 	Vec3 armA, armB; ///< from the centres of mass to the point [m]
 
 	double response() const { return column[0]; } ///< a_n
-};
-
-struct PointRecord : PointHistory {
-	PointStep step;
-
-	/// Without force, stiffness and energy: its impulse is zero, and a step leaves its history as it is. Crushed points
-	/// are idle until the surfaces come as close again.
-	bool isIdle() const
-	{
-		return stiffness == 0 && normalForce == 0 && normalStored == 0 && shearStored == 0 && !impact.isActive()
-		        && shearForce.isZero(0) && dashpotForce.isZero(0);
-	}
 };
 
 /// s^q, q: power of a contact law, which for Hertz's is a matter of a square root.

@@ -31,6 +31,7 @@ void ContactSolver::begin(std::vector<SolverBody>& sceneBodies, double step, int
 	h = step;
 	maxSweeps = sweepLimit;
 	pairs.clear();
+	pointCount = 0;
 	joints.clear();
 	weighted.resize(sceneBodies.size());
 	freeBodies.clear();
@@ -53,10 +54,12 @@ void ContactSolver::startBody(int k)
 	        + weighted[k].root.weightedSpin(body.newSpin).squaredNorm();
 }
 
-size_t ContactSolver::addPair(int bodyA, int bodyB, PointRecord* points, size_t count)
+size_t ContactSolver::addPair(int bodyA, int bodyB, size_t count)
 {
 	assert(bodyA >= 0 && bodyB >= 0 && bodyA != bodyB);
-	pairs.push_back({ bodyA, bodyB, points, count, 0 });
+	pairs.push_back({ bodyA, bodyB, pointCount, count, 0 });
+	pointCount += count;
+	if (pointCount > steps.size()) steps.resize(pointCount);
 	startBody(bodyA);
 	startBody(bodyB);
 	return pairs.size() - 1;
@@ -77,8 +80,7 @@ ModalConstraint& ContactSolver::prepareJoint(
         size_t k, const JointModes& modes, const Mat3& axesA, const JointDamping& damping)
 {
 	assert(k < joints.size());
-	timber::prepareModes(
-	        joints[k], (*bodies)[joints[k].bodyA], (*bodies)[joints[k].bodyB], modes, axesA, damping, h);
+	prepareModes(joints[k], bodiesOf(joints[k]), modes, axesA, damping, h);
 	return joints[k];
 }
 
@@ -88,7 +90,7 @@ template <class Number> void ContactSolver::prepare(size_t k, size_t first, cons
 	const SolverPair& pair = pairs[k];
 	const SolverBodies both = bodiesOf(pair);
 	const size_t count = std::is_same_v<Number, Lanes> ? std::min(size_t(laneCount), pair.count - first) : 1;
-	const auto at = [&](size_t i) -> PointStep& { return pair.points[first + i].step; };
+	const auto at = [&](size_t i) -> PointStep& { return stepsOf(pair)[first + i]; };
 	if (!isExplicit()) return prepareSteps<Number>(data, both, h, count, at);
 	StepInput<Number> input = data;
 	input.impulse = explicitImpulse<Number>(data, both, h);
@@ -101,35 +103,43 @@ template void ContactSolver::prepare(size_t, size_t, const StepInput<Lanes>&);
 void ContactSolver::finishBodies()
 {
 	for (const int k : freeBodies) {
-		const BodyMotion motion = motionOf(k);
-		const Vec3 velocity = motion.velocity(), spin = motion.spin();
-		(*bodies)[k].newVelocity = velocity;
-		(*bodies)[k].newSpin = spin;
+		const double* w = weighted[k].change;
+		(*bodies)[k].newVelocity += weighted[k].root.linear * Vec3(w[0], w[1], w[2]);
+		(*bodies)[k].newSpin += weighted[k].root.spinOf(w + 3);
 	}
 }
 
 /// Applies the impulses of a pair's points to its bodies.
 void ContactSolver::warmStart(const SolverPair& pair)
 {
-	PairVector velocity = PairVector::of(weighted[pair.bodyA].change, weighted[pair.bodyB].change);
+	PairVector velocity = changeOf(pair);
+	const PointStep* points = stepsOf(pair);
 	for (size_t k = 0; k < pair.count; ++k)
 		for (int i = 0; i < 3; ++i)
-			velocity.add(pair.points[k].step.rows[i], pair.points[k].step.impulse[i]);
-	velocity.store(weighted[pair.bodyA].change, weighted[pair.bodyB].change);
+			velocity.add(points[k].rows[i], points[k].impulse[i]);
+	setChange(pair, velocity);
 }
 
 /// One Gauss-Seidel visit of each point of a pair.
 void ContactSolver::solvePair(SolverPair& pair, bool forwards)
 {
-	double *changeA = weighted[pair.bodyA].change, *changeB = weighted[pair.bodyB].change;
-	PairVector velocity = PairVector::of(changeA, changeB);
+	PairVector velocity = changeOf(pair);
+	PointStep* points = stepsOf(pair);
 	double squaredChange = 0;
 	for (size_t k = 0; k < pair.count; ++k) {
-		PointStep& step = pair.points[forwards ? k : pair.count - 1 - k].step;
+		PointStep& step = points[forwards ? k : pair.count - 1 - k];
 		if (!step.idle) squaredChange += visitPoint(step, velocity);
 	}
 	pair.squaredChange = squaredChange * inverseMass(pair);
-	velocity.store(changeA, changeB);
+	setChange(pair, velocity);
+}
+
+/// One Gauss-Seidel visit of a joint.
+void ContactSolver::solveJoint(ModalConstraint& joint, double threshold)
+{
+	PairVector velocity = changeOf(joint);
+	solveModes(joint, velocity, threshold);
+	setChange(joint, velocity);
 }
 
 /// Squared changes of all pairs and joints in their last visits. [J]
@@ -152,7 +162,7 @@ double ContactSolver::squaredThreshold(double tolerance, double firstChanges) co
 	for (const SolverPair& pair : pairs) {
 		double squares = 0;
 		for (size_t k = 0; k < pair.count; ++k) {
-			const PointStep& c = pair.points[k].step;
+			const PointStep& c = stepsOf(pair)[k];
 			squares += c.impulse[0] * c.impulse[0] + c.impulse[1] * c.impulse[1]
 			        + c.impulse[2] * c.impulse[2];
 		}
@@ -215,7 +225,7 @@ bool ContactSolver::sweepJoints(double threshold, double applied)
 	bool changed = false;
 	for (ModalConstraint& joint : joints) {
 		const double limit = threshold * joint.thresholdShare;
-		solveModes(joint, motionOf(joint.bodyA), motionOf(joint.bodyB), applied * limit * double(joint.count));
+		solveJoint(joint, applied * limit * double(joint.count));
 		changed = activateNeighbours(joint, limit) || changed;
 	}
 	return changed;
@@ -237,13 +247,13 @@ void ContactSolver::applyRestitution(const SolverPair& pair)
 {
 	PointStep* alone = nullptr;
 	for (size_t k = 0; k < pair.count; ++k) {
-		PointStep& c = pair.points[k].step;
+		PointStep& c = stepsOf(pair)[k];
 		if (c.impulse[0] == 0 && c.rebound == noRebound) continue;
 		if (alone) return;
 		alone = &c;
 	}
 	if (!alone || alone->rebound == noRebound) return;
-	PairVector velocity = PairVector::of(weighted[pair.bodyA].change, weighted[pair.bodyB].change);
+	PairVector velocity = changeOf(pair);
 	const double p = alone->impulse[0], un = alone->velocity[0] + velocity.dots(alone->rows)[0],
 	             a = alone->response();
 	const bool separates = un > 0 && (p == 0 || un * h > alone->overlap);
@@ -253,7 +263,7 @@ void ContactSolver::applyRestitution(const SolverPair& pair)
 	if (more <= 0) return;
 	alone->impulse[0] += more;
 	velocity.add(alone->rows[0], more);
-	velocity.store(weighted[pair.bodyA].change, weighted[pair.bodyB].change);
+	setChange(pair, velocity);
 }
 
 /// Whether points have returned more energy beyond their accounts (5) than a share of the kinetic energy and the
@@ -262,9 +272,9 @@ bool ContactSolver::returnsTooMuch() const
 {
 	double excess = 0, energy = twiceKinetic / 2;
 	for (const SolverPair& pair : pairs) {
-		const PairVector velocity = PairVector::of(weighted[pair.bodyA].change, weighted[pair.bodyB].change);
+		const PairVector velocity = changeOf(pair);
 		for (size_t k = 0; k < pair.count; ++k) {
-			const PointStep& c = pair.points[k].step;
+			const PointStep& c = stepsOf(pair)[k];
 			const PointStep::Quad work = c.impulse * (c.before + c.velocity + velocity.dots(c.rows)) / 2;
 			excess += std::max(0., work[0] - c.energy) + std::max(0., work[1] + work[2] - c.shearEnergy);
 			energy += c.energy + c.shearEnergy;
@@ -278,9 +288,10 @@ template <class Visit> void ContactSolver::visitUnknowns(Visit visit)
 	for (const SolverPair& pair : pairs)
 		for (size_t k = 0; k < pair.count; ++k)
 			for (int i = 0; i < 3; ++i) {
-				double p = pair.points[k].step.impulse[i];
+				PointStep& c = stepsOf(pair)[k];
+				double p = c.impulse[i];
 				visit(p, inverseMass(pair));
-				pair.points[k].step.impulse[i] = p;
+				c.impulse[i] = p;
 			}
 	for (ModalConstraint& joint : joints)
 		for (double& q : joint.impulse)
@@ -347,7 +358,7 @@ Convergence ContactSolver::sweepToConvergence(double tolerance)
 	activeUntil.resize(bodies->size(), 0);
 	++sweepCount;
 	for (ModalConstraint& joint : joints)
-		solveModes(joint, motionOf(joint.bodyA), motionOf(joint.bodyB), 0);
+		solveJoint(joint, 0);
 	for (SolverPair& pair : pairs)
 		solvePair(pair, true);
 	const double firstChanges = sumOfChanges();
@@ -379,19 +390,19 @@ Convergence ContactSolver::solve(double tolerance)
 	assert(tolerance >= 0);
 	for (const SolverPair& pair : pairs)
 		warmStart(pair);
-	for (const ModalConstraint& joint : joints)
-		timber::warmStart(joint, motionOf(joint.bodyA), motionOf(joint.bodyB));
+	for (ModalConstraint& joint : joints) {
+		PairVector velocity = changeOf(joint);
+		isExplicit() ? applyExplicitModes(joint, velocity) : timber::warmStart(joint, velocity);
+		setChange(joint, velocity);
+	}
 	Convergence result;
-	if (isExplicit())
-		for (ModalConstraint& joint : joints)
-			applyExplicitModes(joint, motionOf(joint.bodyA), motionOf(joint.bodyB));
-	else {
+	if (!isExplicit()) {
 		result = sweepToConvergence(tolerance);
 		for (const SolverPair& pair : pairs)
 			applyRestitution(pair);
 	}
 	for (ModalConstraint& joint : joints)
-		finishModes(joint, motionOf(joint.bodyA), motionOf(joint.bodyB));
+		finishModes(joint, changeOf(joint));
 	finishBodies();
 	return result;
 }

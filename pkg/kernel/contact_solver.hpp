@@ -73,7 +73,7 @@
 ///     a          response       inverse effective mass: change of the relative velocity per unit impulse; a_s: the
 ///                               largest one [1/kg]
 ///     a_ns       column         tangential velocity change by a unit normal impulse [1/kg]
-///     A_n, A_s   energy         accounts of the springs (PointHistory) [J]
+///     A_n, A_s   energy         accounts of the springs (PointRecord) [J]
 ///     b          base           velocity of separation without the point's own impulse [m/s]
 ///     B_n, B_s   bias           in (2): impulse of the elastic force and of the velocity before the step [N s]
 ///     beta       -              Newmark's parameter [-]
@@ -118,11 +118,10 @@
 
 namespace timber {
 
-/// Two bodies in contact and the records of their points.
+/// Two bodies in contact.
 struct SolverPair {
 	int bodyA, bodyB;
-	PointRecord* points;
-	size_t count; ///< of points
+	size_t first, count; ///< of its points in the island
 	/// Of the impulses in the last visit, over the equivalent mass: changes matter by their effect on light members
 	/// [J]
 	double squaredChange;
@@ -143,14 +142,13 @@ public:
 	/// Phase 1: starts a step of h [s] of these bodies. sweepLimit: upper bound of the sweeps over the points; 0:
 	/// explicit springs and dashpots.
 	void begin(std::vector<SolverBody>& bodies, double h, int sweepLimit);
-	/// Phase 1: lists two bodies with the records of that many points, which stay where they are until phase 4.
-	/// Returns the pair's index.
-	size_t addPair(int bodyA, int bodyB, PointRecord* points, size_t count);
+	/// Phase 1: lists two bodies with that many points. Returns the pair's index.
+	size_t addPair(int bodyA, int bodyB, size_t count);
 	/// Phase 1: lists a joint. Returns its index.
 	size_t addJoint(int bodyA, int bodyB);
 	/// Phase 2: points of the k-th pair from `first` on, one or up to laneCount. Thread-safe for different pairs.
 	template <class Number> void prepare(size_t k, size_t first, const StepInput<Number>& input);
-	/// Phase 2: the k-th joint; arguments as of timber::prepareModes(). Thread-safe for different joints.
+	/// Phase 2: the k-th joint; arguments as of prepareModes(). Thread-safe for different joints.
 	ModalConstraint& prepareJoint(
 	        size_t k, const JointModes& modes, const Mat3& axesA, const JointDamping& damping);
 	/// Phase 3: computes impulses and new velocities. Pairs are visited in the order of their indices, the points
@@ -174,11 +172,18 @@ public:
 		assert(k < pairs.size());
 		return pairs[k];
 	}
-	SolverBodies bodiesOf(const SolverPair& pair) const
+	/// Connection: SolverPair or ModalConstraint.
+	template <class Connection> SolverBodies bodiesOf(const Connection& c) const
 	{
-		return { (*bodies)[pair.bodyA], (*bodies)[pair.bodyB], weighted[pair.bodyA].root,
-			weighted[pair.bodyB].root };
+		return { (*bodies)[c.bodyA], (*bodies)[c.bodyB], weighted[c.bodyA].root, weighted[c.bodyB].root };
 	}
+	/// Phases 2 to 4: steps of the points of a pair, one after the other.
+	PointStep* stepsOf(const SolverPair& pair)
+	{
+		assert(pair.first + pair.count <= pointCount);
+		return steps.data() + pair.first;
+	}
+	const PointStep* stepsOf(const SolverPair& pair) const { return steps.data() + pair.first; }
 	/// Phase 4: the k-th joint.
 	const ModalConstraint& joint(size_t k) const
 	{
@@ -192,6 +197,9 @@ private:
 	int maxSweeps = 0;
 	std::vector<WeightedBody> weighted; ///< of each body of the island, by its index
 	std::vector<SolverPair> pairs;
+	/// Of all points in the order of the visits: the sweeps read them one after the other. It does not shrink.
+	std::vector<PointStep> steps;
+	size_t pointCount = 0; ///< of the island
 	std::vector<ModalConstraint> joints;
 	std::vector<int> freeBodies; ///< of the island, by index
 	std::vector<long> activeUntil; ///< of each body: last sweep in which its pairs are visited
@@ -202,7 +210,15 @@ private:
 	void startBody(int k);
 	void finishBodies();
 	void warmStart(const SolverPair& pair);
-	BodyMotion motionOf(int k) { return { (*bodies)[k], weighted[k] }; }
+	void solveJoint(ModalConstraint& joint, double threshold);
+	template <class Connection> PairVector changeOf(const Connection& c) const
+	{
+		return PairVector::of(weighted[c.bodyA].change, weighted[c.bodyB].change);
+	}
+	template <class Connection> void setChange(const Connection& c, const PairVector& change)
+	{
+		change.store(weighted[c.bodyA].change, weighted[c.bodyB].change);
+	}
 	double inverseMass(const SolverPair& pair) const
 	{
 		return pairInverseMass((*bodies)[pair.bodyA], (*bodies)[pair.bodyB]);
@@ -211,7 +227,6 @@ private:
 	double sumOfChanges() const;
 	double squaredThreshold(double tolerance, double firstChanges) const;
 	bool activateChanged(double threshold);
-	/// Connection: SolverPair or ModalConstraint.
 	template <class Connection> bool activateNeighbours(const Connection& c, double threshold);
 	bool sweepOnce(double threshold, bool forwards);
 	bool sweepJoints(double threshold, double applied = 1);

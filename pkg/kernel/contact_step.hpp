@@ -27,23 +27,6 @@ template <class Number> struct StepInput {
 	static constexpr double unlimitedEnergy = std::numeric_limits<double>::infinity();
 };
 
-/// The two bodies of a pair in a step of the solver.
-struct SolverBodies {
-	const SolverBody &a, &b;
-	const InverseRootMass &rootA, &rootB;
-
-	/// Velocity of B relative to A at a point, before the step, and at present. [m/s]
-	template <class Number>
-	Vec3Of<Number> velocityBefore(const Vec3Of<Number>& armA, const Vec3Of<Number>& armB) const
-	{
-		return relativeVelocity<Number>(armA, armB, a.velocity, a.spin, b.velocity, b.spin);
-	}
-	template <class Number> Vec3Of<Number> velocity(const Vec3Of<Number>& armA, const Vec3Of<Number>& armB) const
-	{
-		return relativeVelocity<Number>(armA, armB, a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
-	}
-};
-
 /// Prepares a point, or a group of laneCount points of which the first `count` exist, for a step of h [s]. at(i):
 /// PointStep of the i-th.
 template <class Number, class At>

@@ -43,76 +43,81 @@ namespace {
 		return response;
 	}
 
-	/// R in the axes of A.
-	Mat6 response(const SolverBody& a, const SolverBody& b, const Mat3& axesA, const Vec3& centre)
+	/// The same 3x3 matrix for translations and rotations.
+	Mat6 twice(const Mat3& block)
 	{
-		const Vec3 arm = axesA * centre;
-		Mat6 axes = Mat6::Zero();
-		axes.topLeftCorner<3, 3>() = axes.bottomRightCorner<3, 3>() = axesA;
-		return axes.transpose() * (twistResponse(a, arm) + twistResponse(b, arm + a.position - b.position))
-		        * axes;
+		Mat6 matrix = Mat6::Zero();
+		matrix.topLeftCorner<3, 3>() = matrix.bottomRightCorner<3, 3>() = block;
+		return matrix;
 	}
 
-	/// w of these velocities and spins, in world axes.
-	[[gnu::always_inline]] inline Vec6 twist(
-	        const ModalConstraint& c, const Vec3& vA, const Vec3& wA, const Vec3& vB, const Vec3& wB)
+	/// |E| / phi of (4) for the worst axis, at most. response: R_B, in the axes of A.
+	double sensitivityOf(const Mat6& modes, const Mat6& response)
 	{
-		Vec6 w;
-		w.head<3>() = relativeVelocity<double>(c.armA, c.armB, vA, wA, vB, wB);
-		w.tail<3>() = wB - wA;
-		return w;
+		double squares = 0;
+		for (int axis = 0; axis < 3; ++axis) {
+			const Mat6 turned = twice(crossMatrix(Vec3::Unit(axis))) * response;
+			squares += (modes.transpose() * (turned + turned.transpose()) * modes).squaredNorm();
+		}
+		return std::sqrt(squares);
 	}
 
-	/// x^T y of six numbers; x: every stride-th number. In pairs, so that the processor need not wait for each sum.
-	[[gnu::always_inline]] inline double dot(const double* x, int stride, const Vec6& y)
+	/// Modes in world axes: eta = linear^T (vB - vA) + onB^T wB - onA^T wA.
+	struct ModalAxes {
+		Mat36 linear; ///< [kg^1/2]
+		Mat36 onA, onB; ///< about the centres of mass [kg^1/2 m]
+
+		ModalAxes(const JointModes& modes, const Mat3& axesA, const Vec3& armA, const Vec3& armB)
+		{
+			linear = axesA * modes.modes.topRows<3>();
+			const Mat36 angular = axesA * modes.modes.bottomRows<3>();
+			for (int k = 0; k < 6; ++k) {
+				onA.col(k) = armA.cross(linear.col(k)) + angular.col(k);
+				onB.col(k) = armB.cross(linear.col(k)) + angular.col(k);
+			}
+		}
+		Vec6 velocity(const Vec3& vA, const Vec3& wA, const Vec3& vB, const Vec3& wB) const
+		{
+			return linear.transpose() * (vB - vA) + onB.transpose() * wB - onA.transpose() * wA;
+		}
+	};
+
+	/// J R of contact_solver.hpp for one mode.
+	PairVector rowOf(const ModalAxes& axes, int k, const InverseRootMass& rootA, const InverseRootMass& rootB)
 	{
-		return (x[0] * y[0] + x[stride] * y[1]) + (x[2 * stride] * y[2] + x[3 * stride] * y[3])
-		        + (x[4 * stride] * y[4] + x[5 * stride] * y[5]);
+		const Vec3 linear = axes.linear.col(k), angularA = rootA.weightedTorque<double>(axes.onA.col(k)),
+		           angularB = rootB.weightedTorque<double>(axes.onB.col(k));
+		double a[6], b[6];
+		for (int i = 0; i < 3; ++i) {
+			a[i] = -rootA.linear * linear[i];
+			a[3 + i] = -angularA[i];
+			b[i] = rootB.linear * linear[i];
+			b[3 + i] = angularB[i];
+		}
+		return PairVector::of(a, b);
 	}
 
-	/// Z^T times a twist in world axes.
-	[[gnu::always_inline]] inline Vec6 modalVelocity(const ModalConstraint& c, const Vec6& twist)
+	[[gnu::always_inline]] inline void apply(const ModalConstraint& c, PairVector& change, const Vec6& q)
 	{
-		Vec6 turned, result;
-		turned.head<3>() = c.axesA.transpose() * twist.head<3>();
-		turned.tail<3>() = c.axesA.transpose() * twist.tail<3>();
 		for (int k = 0; k < 6; ++k)
-			result[k] = dot(c.modes->modes.data() + 6 * k, 1, turned);
-		return result;
-	}
-
-	/// Sets modes, axes, arms and eta.
-	void place(ModalConstraint& c, const SolverBody& a, const SolverBody& b, const JointModes& modes,
-	        const Mat3& axesA)
-	{
-		c.modes = &modes;
-		c.axesA = axesA;
-		c.armA = axesA * modes.centre;
-		c.armB = c.armA + a.position - b.position;
-		c.before = modalVelocity(c, twist(c, a.velocity, a.spin, b.velocity, b.spin));
-	}
-
-	/// Z q, in world axes.
-	[[gnu::always_inline]] inline JointImpulse impulseOf(const ModalConstraint& c, const Vec6& q)
-	{
-		Vec6 P;
-		for (int i = 0; i < 6; ++i)
-			P[i] = dot(c.modes->modes.data() + i, 6, q);
-		return { c.axesA * P.head<3>(), c.axesA * P.tail<3>() };
-	}
-
-	[[gnu::always_inline]] inline void apply(
-	        const ModalConstraint& c, const BodyMotion& a, const BodyMotion& b, const Vec6& q)
-	{
-		const JointImpulse P = impulseOf(c, q);
-		a.accelerate(-P.linear, -c.armA.cross(P.linear) - P.angular);
-		b.accelerate(P.linear, c.armB.cross(P.linear) + P.angular);
+			change.add(c.rows[k / 3][k % 3], q[k]);
 	}
 
 	/// Z^T u; after the sweeps: eta'.
-	[[gnu::always_inline]] inline Vec6 modalNow(const ModalConstraint& c, const BodyMotion& a, const BodyMotion& b)
+	[[gnu::always_inline]] inline Vec6 modalNow(const ModalConstraint& c, const PairVector& change)
 	{
-		return modalVelocity(c, twist(c, a.velocity(), a.spin(), b.velocity(), b.spin()));
+		Vec6 now = c.velocity;
+		for (int half = 0; half < 2; ++half) {
+			const PairVector::Quad rates = change.dots(c.rows[half]);
+			for (int i = 0; i < 3; ++i)
+				now[3 * half + i] += rates[i];
+		}
+		return now;
+	}
+
+	Vec3 armOfB(const Vec3& armA, const SolverBody& a, const SolverBody& b)
+	{
+		return armA + a.position - b.position;
 	}
 
 } // namespace
@@ -126,29 +131,43 @@ JointModes jointModes(const SolverBody& a, const SolverBody& b, const Mat3& axes
 	JointModes result;
 	result.state = state;
 	result.centre = centreOf(springs);
-	const Mat6 L = response(a, b, axesA, result.centre).llt().matrixL(); // R = L L^T
+	const Vec3 arm = axesA * result.centre;
+	const Mat6 axes = twice(axesA),
+	           responseB = axes.transpose() * twistResponse(b, arm + a.position - b.position) * axes,
+	           L = (axes.transpose() * twistResponse(a, arm) * axes + responseB).llt().matrixL(); // R = L L^T
 	const Eigen::SelfAdjointEigenSolver<Mat6> solver(L.transpose() * stiffnessMatrix(springs, result.centre) * L);
 	// Rounding may make the eigenvalue of a free rotation negative
 	result.frequencies = solver.eigenvalues().cwiseMax(0).cwiseSqrt();
 	result.twists = L * solver.eigenvectors();
 	result.modes = L.transpose().triangularView<Eigen::Upper>().solve(solver.eigenvectors());
+	result.sensitivity = sensitivityOf(result.modes, responseB);
 	return result;
 }
 
 double dashpotPower(const SolverBody& a, const SolverBody& b, const JointModes& modes, const Mat3& axesA,
         const JointDamping& damping)
 {
-	ModalConstraint c;
-	place(c, a, b, modes, axesA);
-	return modes.frequencies.unaryExpr([&](double omega) { return damping.of(omega); }).dot(c.before.cwiseAbs2());
+	const Vec3 armA = axesA * modes.centre;
+	const Vec6 eta
+	        = ModalAxes(modes, axesA, armA, armOfB(armA, a, b)).velocity(a.velocity, a.spin, b.velocity, b.spin);
+	return modes.frequencies.unaryExpr([&](double omega) { return damping.of(omega); }).dot(eta.cwiseAbs2());
 }
 
-void prepareModes(ModalConstraint& c, const SolverBody& a, const SolverBody& b, const JointModes& modes,
-        const Mat3& axesA, const JointDamping& damping, double h)
+void prepareModes(ModalConstraint& c, const SolverBodies& bodies, const JointModes& modes, const Mat3& axesA,
+        const JointDamping& damping, double h)
 {
 	assert(h > 0 && damping.ratio >= 0 && damping.time >= 0 && damping.tangent >= 0);
 	assert(modes.state.springs > 0 && isRotation(axesA));
-	place(c, a, b, modes, axesA);
+	const auto& [a, b, rootA, rootB] = bodies;
+	c.modes = &modes;
+	c.axesA = axesA;
+	c.armA = axesA * modes.centre;
+	c.armB = armOfB(c.armA, a, b);
+	const ModalAxes axes(modes, axesA, c.armA, c.armB);
+	for (int k = 0; k < 6; ++k)
+		c.rows[k / 3][k % 3] = rowOf(axes, k, rootA, rootB);
+	c.before = axes.velocity(a.velocity, a.spin, b.velocity, b.spin);
+	c.velocity = axes.velocity(a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
 	const Eigen::Array<double, 6, 1> phase = h * modes.frequencies.array(),
 	                                 x
 	        = h / 2 * modes.frequencies.array().unaryExpr([&](double omega) { return damping.of(omega); });
@@ -168,9 +187,9 @@ void addSprings(ModalConstraint& c, SpringSteps springs)
 	c.impulse = c.springs.warmStart(c.h);
 }
 
-void warmStart(const ModalConstraint& c, const BodyMotion& a, const BodyMotion& b)
+void warmStart(const ModalConstraint& c, PairVector& change)
 {
-	if (!c.springs.empty()) apply(c, a, b, c.impulse);
+	if (!c.springs.empty()) apply(c, change, c.impulse);
 }
 
 namespace {
@@ -185,26 +204,26 @@ namespace {
 	}
 }
 
-void solveModes(ModalConstraint& c, const BodyMotion& a, const BodyMotion& b, double threshold)
+void solveModes(ModalConstraint& c, PairVector& velocity, double threshold)
 {
-	const Vec6 now = modalNow(c, a, b);
+	const Vec6 now = modalNow(c, velocity);
 	const Vec6 q = c.springs.empty() ? dashpotImpulse(c, now) : c.springs.impulse(c.step(), now - c.impulse, now),
 	           change = q - c.impulse;
 	c.squaredChange = change.squaredNorm();
 	if (c.squaredChange <= threshold) return;
 	c.impulse += change;
-	apply(c, a, b, change);
+	apply(c, velocity, change);
 }
 
-void applyExplicitModes(ModalConstraint& c, const BodyMotion& a, const BodyMotion& b)
+void applyExplicitModes(ModalConstraint& c, PairVector& change)
 {
 	c.impulse = -2 * c.decay.cwiseProduct(c.before);
-	apply(c, a, b, c.impulse);
+	apply(c, change, c.impulse);
 }
 
-void finishModes(ModalConstraint& c, const BodyMotion& a, const BodyMotion& b)
+void finishModes(ModalConstraint& c, const PairVector& change)
 {
-	const Vec6 now = modalNow(c, a, b), sum = c.before + now;
+	const Vec6 now = modalNow(c, change), sum = c.before + now;
 	c.after = now;
 	if (c.springs.empty()) c.dissipated = -c.impulse.dot(sum) / 2;
 	else {
@@ -213,6 +232,10 @@ void finishModes(ModalConstraint& c, const BodyMotion& a, const BodyMotion& b)
 	}
 }
 
-JointImpulse jointImpulse(const ModalConstraint& c) { return impulseOf(c, c.impulse); }
+JointImpulse jointImpulse(const ModalConstraint& c)
+{
+	const Vec6 P = c.modes->modes * c.impulse;
+	return { c.axesA * P.head<3>(), c.axesA * P.tail<3>() };
+}
 
 } // namespace timber

@@ -27,8 +27,11 @@
 /// Stiff joints, h omega > stiffPhase, have their springs in the solver, too (spring_step.hpp); a visit solves dashpots
 /// and springs together. They start from the spring forces of the last step.
 /// Z is fixed in the axes of A. It is reused while springs, masses and moments of inertia are the same and the bodies
-/// have turned against each other by less than modeAngle: (2) holds for any Z, and Z decides with (1) about the damping
-/// ratio and the convergence of (3) only.
+/// have turned little against each other: (2) holds for any Z, and Z decides with (1) about the damping ratio and the
+/// convergence of (3) only. With modes of another placement, Z^T R Z = 1 + E, the error of q is multiplied by -s E in
+/// each visit. A turn by the angle phi about the axis n changes R by the response of B, R_B:
+///     E = phi Z^T (N R_B + R_B N^T) Z,   N = diag([n], [n])                                      (4)
+/// which is large for slender bodies and for long arms.
 ///
 /// Glossary
 ///     D        damping       matrix of the joint's dashpots [N s/m, N s, N m s]
@@ -72,36 +75,16 @@ struct JointState {
 	double inverseInertia = 0; ///< traces of both bodies [1/(kg m2)]
 	Quat relative = Quat::Identity(); ///< orientation of B in the axes of A
 
-	/// Whether modes of this state serve for another one.
-	bool fits(const JointState& now) const
+	/// Whether modes of this state serve for another one. largestTurn: of the bodies against each other [rad]
+	bool fits(const JointState& now, double largestTurn) const
 	{
 		return springs == now.springs && stiffness.normal == now.stiffness.normal
 		        && stiffness.shear == now.stiffness.shear && pairInverseMass == now.pairInverseMass
 		        && std::abs(inverseInertia - now.inverseInertia) <= 1e-9 * inverseInertia
 		        // Cosine of half the angle
-		        && std::abs(relative.dot(now.relative)) > 1 - modeAngle * modeAngle / 8;
+		        && std::abs(relative.dot(now.relative)) > 1 - largestTurn * largestTurn / 8;
 	}
 };
-
-/// Vibration modes of two bodies with a joint.
-struct JointModes {
-	JointState state; ///< for which they were computed
-	Vec3 centre = Vec3::Zero(); ///< of the unbroken springs, in the frame of A [m]
-	Mat6 modes = Mat6::Zero(); ///< Z, in the axes of A
-	Mat6 twists = Mat6::Zero(); ///< Z^-T: w = Z^-T eta
-	Vec6 frequencies = Vec6::Zero(); ///< omega
-
-	/// Whether explicit springs would not resolve a step of h [s]. Frequencies increase.
-	bool isStiff(double h) const { return h * frequencies[5] > stiffPhase; }
-	/// Rates of a stretch by the modal velocities. end: where the spring's force acts, in the frame of A [m].
-	Mat36 rates(const Vec3& end) const
-	{
-		return twists.topRows<3>() - crossMatrix(end - centre) * twists.bottomRows<3>();
-	}
-};
-/// axesA: rotation matrix from the frame of A to the world. At least one spring is unbroken, and one body free.
-JointModes jointModes(const SolverBody& a, const SolverBody& b, const Mat3& axesA, const SpringGroup& springs,
-        const JointState& state);
 
 /// Dashpots of a joint in a step.
 struct JointDamping {
@@ -115,6 +98,33 @@ struct JointDamping {
 	}
 };
 
+/// Vibration modes of two bodies with a joint.
+struct JointModes {
+	JointState state; ///< for which they were computed
+	Vec3 centre = Vec3::Zero(); ///< of the unbroken springs, in the frame of A [m]
+	Mat6 modes = Mat6::Zero(); ///< Z, in the axes of A
+	Mat6 twists = Mat6::Zero(); ///< Z^-T: w = Z^-T eta
+	Vec6 frequencies = Vec6::Zero(); ///< omega
+	double sensitivity = 0; ///< bound of |E| / phi, (4) [1/rad]
+
+	/// Whether explicit springs would not resolve a step of h [s]. Frequencies increase.
+	bool isStiff(double h) const { return h * frequencies[5] > stiffPhase; }
+	/// Rotation of the bodies against each other up to which the modes serve. h: step [s]; returns [rad].
+	double largestTurn(double h, const JointDamping& damping) const
+	{
+		const double x = h / 2 * damping.of(frequencies[5]), share = isStiff(h) ? 1 : x / (1 + x);
+		return modeError / std::max(share * sensitivity, modeError / modeAngle);
+	}
+	/// Rates of a stretch by the modal velocities. end: where the spring's force acts, in the frame of A [m].
+	Mat36 rates(const Vec3& end) const
+	{
+		return twists.topRows<3>() - crossMatrix(end - centre) * twists.bottomRows<3>();
+	}
+};
+/// axesA: rotation matrix from the frame of A to the world. At least one spring is unbroken, and one body free.
+JointModes jointModes(const SolverBody& a, const SolverBody& b, const Mat3& axesA, const SpringGroup& springs,
+        const JointState& state);
+
 /// Power that a joint's dashpots take from its bodies at the velocities before the step. [W]
 double dashpotPower(const SolverBody& a, const SolverBody& b, const JointModes& modes, const Mat3& axesA,
         const JointDamping& damping);
@@ -122,6 +132,8 @@ double dashpotPower(const SolverBody& a, const SolverBody& b, const JointModes& 
 /// A joint's modes in a step.
 struct ModalConstraint {
 	int bodyA, bodyB;
+	PairVector rows[2][3]; ///< of J R (contact_solver.hpp), three modes each
+	Vec6 velocity; ///< Z^T u_0
 	const JointModes* modes; ///< Z in the axes of A
 	Mat3 axesA; ///< rotation matrix from the frame of A to the world
 	Vec3 armA, armB; ///< from the centres of mass to the joint's centre [m]
@@ -142,23 +154,23 @@ struct ModalConstraint {
 };
 
 /// Constraint for a step of h [s], with zero impulse. modes are not copied.
-void prepareModes(ModalConstraint& constraint, const SolverBody& a, const SolverBody& b, const JointModes& modes,
-        const Mat3& axesA, const JointDamping& damping, double h);
+void prepareModes(ModalConstraint& constraint, const SolverBodies& bodies, const JointModes& modes, const Mat3& axesA,
+        const JointDamping& damping, double h);
 
 /// Adds the springs of a stiff joint, with the impulse of their last forces.
 void addSprings(ModalConstraint& constraint, SpringSteps springs);
 
-/// Applies the impulse of a stiff joint's last forces.
-void warmStart(const ModalConstraint& constraint, const BodyMotion& a, const BodyMotion& b);
+/// Applies the impulse of a stiff joint's last forces. change: dW of (8), contact_solver.hpp, in-out.
+void warmStart(const ModalConstraint& constraint, PairVector& change);
 
 /// One Gauss-Seidel visit: (3), or (3) of spring_step.hpp. A squared change of at most `threshold` [J] is not applied.
-void solveModes(ModalConstraint& constraint, const BodyMotion& a, const BodyMotion& b, double threshold);
+void solveModes(ModalConstraint& constraint, PairVector& change, double threshold);
 
 /// Impulse of explicit dashpots, of the velocities before the step.
-void applyExplicitModes(ModalConstraint& constraint, const BodyMotion& a, const BodyMotion& b);
+void applyExplicitModes(ModalConstraint& constraint, PairVector& change);
 
-/// History and dissipated energy after the step. a, b: after the sweeps.
-void finishModes(ModalConstraint& constraint, const BodyMotion& a, const BodyMotion& b);
+/// History and dissipated energy after the step. change: after the sweeps.
+void finishModes(ModalConstraint& constraint, const PairVector& change);
 
 /// Impulse of the modes on B at the joint's centre.
 struct JointImpulse {

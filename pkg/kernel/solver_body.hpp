@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Bodies as the solver sees them, in the world frame.
 #pragma once
-#include "simd.hpp"
+#include "kinematics.hpp"
 
 namespace timber {
 
@@ -101,25 +101,20 @@ struct WeightedBody {
 	long step = -1; ///< of the solver, for which it was started
 };
 
-/// Velocities of a body during the sweeps.
-struct BodyMotion {
-	const SolverBody& start; ///< before the sweeps
-	WeightedBody& weighted;
+/// The two bodies of a pair in a step of the solver.
+struct SolverBodies {
+	const SolverBody &a, &b;
+	const InverseRootMass &rootA, &rootB;
 
-	Vec3 velocity() const
+	/// Velocity of B relative to A at a point, before the step, and at present. [m/s]
+	template <class Number>
+	Vec3Of<Number> velocityBefore(const Vec3Of<Number>& armA, const Vec3Of<Number>& armB) const
 	{
-		return start.newVelocity
-		        + weighted.root.linear * Vec3(weighted.change[0], weighted.change[1], weighted.change[2]);
+		return relativeVelocity<Number>(armA, armB, a.velocity, a.spin, b.velocity, b.spin);
 	}
-	Vec3 spin() const { return start.newSpin + weighted.root.spinOf(weighted.change + 3); }
-	/// Applies an impulse and an angular impulse about the centre.
-	void accelerate(const Vec3& impulse, const Vec3& angular) const
+	template <class Number> Vec3Of<Number> velocity(const Vec3Of<Number>& armA, const Vec3Of<Number>& armB) const
 	{
-		const Vec3 torque = weighted.root.weightedTorque<double>(angular);
-		for (int i = 0; i < 3; ++i) {
-			weighted.change[i] += weighted.root.linear * impulse[i];
-			weighted.change[3 + i] += torque[i];
-		}
+		return relativeVelocity<Number>(armA, armB, a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
 	}
 };
 

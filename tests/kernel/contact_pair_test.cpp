@@ -72,10 +72,10 @@ struct Separation {
 		const std::vector<ContactPoint> points { pointOf(vertex, overlap) };
 		ContactSolver solver;
 		solver.begin(bodies, hh, 100);
-		solver.addPair(0, 1, records.data(), 1);
-		prepareContacts(solver, 0, properties, points);
+		solver.addPair(0, 1, 1);
+		prepareContacts(solver, 0, properties, points, records);
 		solver.solve(1e-12);
-		storeForces(solver, 0, properties, energies);
+		storeForces(solver, 0, properties, records, energies);
 	}
 	double after() const { return bodies[1].newVelocity.z(); }
 };

@@ -64,12 +64,11 @@ double hardenedPoint(std::vector<SolverBody> bodies, double room, double hardeni
 	p.power = 1.5;
 	p.room = room;
 	p.hardening = hardening;
-	std::vector<PointRecord> records(1);
 	ContactSolver solver;
 	solver.begin(bodies, 1e-3, 100);
-	solver.prepare<double>(solver.addPair(0, 1, records.data(), 1), 0, p);
+	solver.prepare<double>(solver.addPair(0, 1, 1), 0, p);
 	solver.solve();
-	return records[0].step.impulse[0];
+	return solver.stepsOf(solver.pair(0))->impulse[0];
 }
 } // namespace
 

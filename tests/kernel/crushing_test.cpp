@@ -88,12 +88,12 @@ public:
 			b.newVelocity = b.velocity, b.newSpin = b.spin;
 		ContactSolver solver;
 		solver.begin(bodies, h, sweeps);
-		solver.addPair(0, 1, records.data(), records.size());
-		prepareContacts(solver, 0, pair, points);
+		solver.addPair(0, 1, records.size());
+		prepareContacts(solver, 0, pair, points, records);
 		const double strength = records.empty() ? 0 : pair.strength.force(records[0].crushed);
 		solver.solve(1e-12);
 		PairEnergies energies;
-		const PairForce force = storeForces(solver, 0, pair, energies);
+		const PairForce force = storeForces(solver, 0, pair, records, energies);
 		if (!records.empty()) largest = std::max(largest, force.onB.z() / strength);
 		crushing += energies.crushing;
 		dashpot += energies.dashpotNormal;
@@ -281,11 +281,11 @@ TEST(Crushing, LeavesOutIdlePoints)
 		bodies[1] = { none, none, { 0.01, 0, -0.01 }, { 0, 0.1, 0 }, 1 / mass, Mat3::Identity(), none };
 		ContactSolver solver;
 		solver.begin(bodies, h, 100);
-		solver.addPair(0, 1, records.data(), records.size());
-		prepareContacts(solver, 0, pair, points);
+		solver.addPair(0, 1, records.size());
+		prepareContacts(solver, 0, pair, points, records);
 		solver.solve(1e-12);
 		PairEnergies energies;
-		const PairForce force = storeForces(solver, 0, pair, energies);
+		const PairForce force = storeForces(solver, 0, pair, records, energies);
 		return std::array<double, 5> { bodies[1].newVelocity.x(), bodies[1].newVelocity.z(),
 			bodies[1].newSpin.y(), force.torqueB.y(),
 			energies.elasticNormal + energies.dashpotNormal + energies.friction };

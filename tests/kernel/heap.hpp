@@ -58,20 +58,22 @@ inline int solveContacts(ContactSolver& solver, Islands& islands, std::vector<So
 	}
 	islands.find(bodies.size(), links);
 	int maxSweeps = 0;
-	std::vector<PointRecord> records(points.size());
 	for (size_t island = 0; island < islands.count(); ++island) {
 		solver.begin(bodies, h, sweeps);
 		for (const int pair : islands[island]) {
 			const auto [first, last] = pairs[size_t(pair)];
-			const size_t k = solver.addPair(first->bodyA, first->bodyB,
-			        &records[size_t(first - points.begin())], size_t(last - first));
+			const size_t k = solver.addPair(first->bodyA, first->bodyB, size_t(last - first));
 			for (Place p = first; p != last; ++p)
 				solver.prepare<double>(k, size_t(p - first), *p);
 		}
 		maxSweeps = std::max(maxSweeps, solver.solve(tolerance).sweeps);
+		for (size_t k = 0; k < islands[island].size(); ++k) {
+			const PointStep* step = solver.stepsOf(solver.pair(k));
+			const auto [first, last] = pairs[size_t(*(islands[island].begin() + std::ptrdiff_t(k)))];
+			for (Place p = first; p != last; ++p)
+				p->impulse = worldImpulse(*step++);
+		}
 	}
-	for (size_t k = 0; k < points.size(); ++k)
-		points[k].impulse = worldImpulse(records[k].step);
 	return maxSweeps;
 }
 inline int solveContacts(

@@ -63,11 +63,11 @@ public:
 		if (depth > 0) bodies[1].newVelocity.z() -= h * push / mass;
 		ContactSolver solver;
 		solver.begin(bodies, h, sweeps);
-		solver.addPair(0, 1, records.data(), records.size());
-		prepareContacts(solver, 0, pair, points);
+		solver.addPair(0, 1, records.size());
+		prepareContacts(solver, 0, pair, points, records);
 		solver.solve(1e-12);
 		PairEnergies energies;
-		storeForces(solver, 0, pair, energies);
+		storeForces(solver, 0, pair, records, energies);
 		dissipated += energies.dashpotNormal;
 		least = std::min(least, energies.dashpotNormal);
 		elastic = energies.elasticNormal;
@@ -141,14 +141,14 @@ double computedRebound(double light, double heavy, double h, double share)
 			const BodyKinematics a { none, bodies[i].velocity, none },
 			        b { none, bodies[i + 1].velocity, none };
 			elasticPair(hertz, { pairs[i], a, b, h, NormalForm::Closed, k == 0 }, points[i], records[i]);
-			solver.addPair(i, i + 1, records[i].data(), points[i].size());
+			solver.addPair(i, i + 1, points[i].size());
 		}
 		for (int i : { 0, 1 })
-			prepareContacts(solver, i, pairs[i], points[i]);
+			prepareContacts(solver, i, pairs[i], points[i], records[i]);
 		solver.solve(1e-12);
 		PairEnergies energies;
 		for (int i : { 0, 1 })
-			storeForces(solver, i, pairs[i], energies);
+			storeForces(solver, i, pairs[i], records[i], energies);
 		for (SolverBody& b : bodies)
 			b.velocity = b.newVelocity;
 		for (int i : { 0, 1 })

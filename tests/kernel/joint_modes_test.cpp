@@ -231,24 +231,83 @@ TEST(Oscillator, ExplicitWithoutSweeps)
 TEST(JointModes, FitWhatTheyWereComputedFor)
 {
 	const JointState state { 4, { 100, 200 }, 0.7, 3, about(Vec3::UnitX(), 0.3) };
-	EXPECT_TRUE(state.fits(state));
+	EXPECT_TRUE(state.fits(state, modeAngle));
 	const auto changed = [&](auto change) {
 		JointState other = state;
 		change(other);
 		return other;
 	};
-	EXPECT_FALSE(state.fits(changed([](JointState& s) { s.springs = 3; })));
-	EXPECT_FALSE(state.fits(changed([](JointState& s) { s.stiffness.shear = 201; })));
-	EXPECT_FALSE(state.fits(changed([](JointState& s) { s.pairInverseMass = 0.8; })));
-	EXPECT_FALSE(state.fits(changed([](JointState& s) { s.inverseInertia = 3.1; })));
-	for (const double share : { 0.9, 1.1 }) {
-		const Quat turned = about(Vec3::UnitZ(), share * modeAngle) * state.relative;
-		EXPECT_EQ(state.fits(changed([&](JointState& s) { s.relative = turned; })), share < 1);
-		// The same orientation
-		EXPECT_EQ(
-		        state.fits(changed([&](JointState& s) { s.relative.coeffs() = -turned.coeffs(); })), share < 1);
+	EXPECT_FALSE(state.fits(changed([](JointState& s) { s.springs = 3; }), modeAngle));
+	EXPECT_FALSE(state.fits(changed([](JointState& s) { s.stiffness.shear = 201; }), modeAngle));
+	EXPECT_FALSE(state.fits(changed([](JointState& s) { s.pairInverseMass = 0.8; }), modeAngle));
+	EXPECT_FALSE(state.fits(changed([](JointState& s) { s.inverseInertia = 3.1; }), modeAngle));
+	for (const double limit : { 1e-3, modeAngle })
+		for (const double share : { 0.9, 1.1 }) {
+			Quat turned = about(Vec3::UnitZ(), share * limit) * state.relative;
+			for (int k = 0; k < 2; ++k) {
+				EXPECT_EQ(state.fits(changed([&](JointState& s) { s.relative = turned; }), limit),
+				        share < 1);
+				turned.coeffs() *= -1; // the same orientation
+			}
+		}
+	EXPECT_FALSE(JointState().fits(state, modeAngle));
+}
+
+namespace {
+
+/// A body on an arm about a ball joint at the origin, turned by a rotation vector [rad].
+Assembly onArm(const Vec3& turn)
+{
+	const Mat3 axes = Eigen::AngleAxisd(turn.norm(), turn.stableNormalized()).toRotationMatrix();
+	Assembly assembly { { body(0, Vec3::Zero()), member(10, { 0.07, 0.2, 0.01 }, axes * Vec3(0.3, 0, 2)) }, {} };
+	SolverBody& bob = assembly.bodies[1];
+	bob.inverseInertia = axes * bob.inverseInertia * axes.transpose();
+	assembly.joints.push_back({ 0, 1, { Vec3::Zero() }, { 1e8, 1e8 }, Vec3::UnitZ(), { 0 } });
+	return assembly;
+}
+
+} // namespace
+
+/// (4): bound of E by finite differences, which some axis reaches but for the sum over three.
+TEST(JointModes, KnowTheirErrorAfterARotation)
+{
+	Random random(17);
+	const Assembly start = onArm(Vec3::Zero());
+	const JointModes modes = start.modesOf(start.joints[0]);
+	double largest = 0;
+	for (int trial = 0; trial < 100; ++trial) {
+		const Assembly turned = onArm(1e-6 * randomDirection(random));
+		const Mat6 T = turned.modesOf(turned.joints[0]).twists, // R = T T^T
+		        E = modes.modes.transpose() * T * T.transpose() * modes.modes - Mat6::Identity();
+		largest = std::max(largest, E.norm() / 1e-6);
 	}
-	EXPECT_FALSE(JointState().fits(state));
+	EXPECT_LE(largest, modes.sensitivity * (1 + 1e-3)); // curvature, rounding
+	EXPECT_GT(largest, modes.sensitivity / 2);
+	EXPECT_LT(modes.largestTurn(5e-4, { 0 }), modeError / modes.sensitivity * (1 + 1e-12));
+}
+
+/// Visits converge with modes of a placement that is as far away as they serve.
+TEST(JointModes, ConvergeUpToTheirLargestTurn)
+{
+	Random random(29);
+	const double h = 5e-4;
+	const Assembly start = onArm(Vec3::Zero());
+	const JointModes modes = start.modesOf(start.joints[0]);
+	ASSERT_TRUE(modes.isStiff(h));
+	for (int trial = 0; trial < 20; ++trial) {
+		Assembly turned = onArm(modes.largestTurn(h, { 0 }) * randomDirection(random));
+		turned.setVelocities(
+		        (Vector(12) << Vector::Zero(6), randomDirection(random), randomDirection(random)).finished());
+		turned.startSprings(h);
+		ContactSolver solver;
+		solver.begin(turned.bodies, h, 100);
+		solver.addJoint(0, 1);
+		ModalConstraint& c = solver.prepareJoint(0, modes, Mat3::Identity(), { 0 });
+		addSprings(c, turned.springSteps(turned.joints[0], turned.history[0], modes, h));
+		const Convergence end = solver.solve(1e-8);
+		EXPECT_TRUE(end.converged);
+		EXPECT_LT(end.sweeps, 15); // (1/4)^15 = 1e-9
+	}
 }
 
 /// The converged impulse dissipates energy whatever the modes are: those of another placement, of other bodies, of
@@ -289,13 +348,12 @@ TEST(Chain, IsSolvedTogetherWithContacts)
 	const double h = 1e-3;
 	const std::vector<SolverBody> start = assembly.bodies;
 	ContactSolver solver;
-	PointRecord record;
 	solver.begin(assembly.bodies, h, 5000);
 	HeapPoint p = central(3000, 50000);
 	p.friction = 1e3; // sticks
 	p.armA = Vec3(0.05, 0.05, 2.8) - start[1].position;
 	p.armB = Vec3(0.05, 0.05, 2.8) - start[2].position;
-	solver.prepare<double>(solver.addPair(1, 2, &record, 1), 0, p);
+	solver.prepare<double>(solver.addPair(1, 2, 1), 0, p);
 	std::vector<JointModes> modes;
 	for (const Joint& j : assembly.joints)
 		modes.push_back(assembly.modesOf(j));
@@ -304,7 +362,7 @@ TEST(Chain, IsSolvedTogetherWithContacts)
 		        solver.addJoint(assembly.joints[k].a, assembly.joints[k].b), modes[k], Mat3::Identity(), { 1 });
 	solver.solve(1e-12);
 	Vector impulse = Vector::Zero(18); // of the contact
-	const Vec3 contact = worldImpulse(record.step);
+	const Vec3 contact = worldImpulse(*solver.stepsOf(solver.pair(0)));
 	impulse.segment<6>(6) << -contact, -p.armA.cross(contact);
 	impulse.segment<6>(12) << contact, p.armB.cross(contact);
 	const Assembly before { start, assembly.joints, {} };

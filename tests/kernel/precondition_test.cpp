@@ -72,7 +72,7 @@ TEST(Preconditions, OfTheSolver)
 	[[maybe_unused]] ContactSolver solver;
 	std::vector<SolverBody> no;
 	EXPECT_REFUSED(solver.begin(no, 1e-4, -1));
-	EXPECT_REFUSED(solver.addPair(1, 1, nullptr, 4));
+	EXPECT_REFUSED(solver.addPair(1, 1, 4));
 }
 
 TEST(Preconditions, OfJointsAndStability)

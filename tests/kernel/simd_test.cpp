@@ -112,13 +112,12 @@ TEST(LanesOfAPair, StepsAreThoseOfEachPoint)
 	for (const int sweeps : { 0, 50 })
 		for (unsigned seed = 0; seed < 60; ++seed) {
 			MovingPair p(seed, 1 + seed % 11);
-			std::vector<PointRecord> each = p.records;
 			ContactSolver together, alone;
 			together.begin(p.bodies, p.h, sweeps);
-			together.addPair(0, 1, p.records.data(), p.records.size());
+			together.addPair(0, 1, p.records.size());
 			alone.begin(p.bodies, p.h, sweeps);
-			alone.addPair(0, 1, each.data(), each.size());
-			prepareContacts(together, 0, properties, p.points);
+			alone.addPair(0, 1, p.records.size());
+			prepareContacts(together, 0, properties, p.points, p.records);
 			for (size_t k = 0; k < p.points.size(); ++k) {
 				const PointRecord& s = p.records[k];
 				const double damping = 2 * std::sqrt(properties.mass * s.stiffness);
@@ -137,7 +136,8 @@ TEST(LanesOfAPair, StepsAreThoseOfEachPoint)
 				one.energy = s.normalStored;
 				one.shearEnergy = s.shearStored;
 				alone.prepare<double>(0, k, one);
-				const PointStep &u = s.step, &v = each[k].step;
+				const PointStep &u = together.stepsOf(together.pair(0))[k],
+				                &v = alone.stepsOf(alone.pair(0))[k];
 				using S = PointStep;
 				for (const auto member : { &S::armA, &S::armB })
 					EXPECT_EQ(u.*member, v.*member) << seed;
@@ -167,15 +167,15 @@ TEST(LanesOfAPair, ForcesAndEnergiesAreSumsOverThePoints)
 		const std::vector<PointRecord> before = p.records;
 		ContactSolver solver;
 		solver.begin(p.bodies, p.h, 50);
-		solver.addPair(0, 1, p.records.data(), p.records.size());
-		prepareContacts(solver, 0, properties, p.points);
+		solver.addPair(0, 1, p.records.size());
+		prepareContacts(solver, 0, properties, p.points, p.records);
 		solver.solve();
 		PairEnergies energies { 1, 2, 3, 4, 5 }, sums = energies; // of other pairs, before
-		const PairForce force = storeForces(solver, 0, properties, energies);
+		const PairForce force = storeForces(solver, 0, properties, p.records, energies);
 		Vec3 sum = Vec3::Zero(), torqueA = sum, torqueB = sum;
 		for (size_t k = 0; k < p.points.size(); ++k) {
 			const PointRecord& s = p.records[k];
-			const PointStep& c = s.step;
+			const PointStep& c = solver.stepsOf(solver.pair(0))[k];
 			const Vec3 impulse = worldImpulse(c), f = impulse / p.h, &normal = c.axes[0],
 			           after = relativeVelocity<double>(c.armA, c.armB, p.bodies[0].newVelocity,
 			                   p.bodies[0].newSpin, p.bodies[1].newVelocity, p.bodies[1].newSpin);
@@ -241,11 +241,11 @@ TEST(LanesOfAPair, ImpulsesActAsOneByOne)
 		std::vector<SolverBody> each = p.bodies;
 		ContactSolver solver;
 		solver.begin(p.bodies, p.h, 0);
-		solver.addPair(0, 1, p.records.data(), count);
-		prepareContacts(solver, 0, properties, p.points);
+		solver.addPair(0, 1, count);
+		prepareContacts(solver, 0, properties, p.points, p.records);
 		solver.solve();
-		for (const PointRecord& record : p.records) {
-			const PointStep& c = record.step;
+		for (size_t k = 0; k < p.records.size(); ++k) {
+			const PointStep& c = solver.stepsOf(solver.pair(0))[k];
 			for (const int body : { 0, 1 }) {
 				SolverBody& b = each[size_t(body)];
 				if (b.inverseMass == 0) continue;

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Joints that a step does not resolve: their strength limits what they transmit, yielding ones create no energy."""
+import math
+
 import pytest
 import yade.wrapper as yw
 import yade_timber as yt
@@ -111,3 +113,26 @@ def test_dashpots_of_stiff_joints_have_the_tangent_stiffness():
     5e-4 s takes five for the elastic part of the way. With the initial stiffness the peak is 0.019 m in place of 0.043.
     """
     assert peak_on_a_light_body(5e-4) == pytest.approx(peak_on_a_light_body(2e-5), rel=0.01)
+
+
+@pytest.mark.parametrize("damping_ratio", [0, 1])
+def test_a_bob_on_a_long_arm_keeps_its_length_and_energy(damping_ratio):
+    """A cube of 10 kg swings on a ball joint of 1e8 N/m, 2 m away: at 5e-4 s the joint's fastest mode has h omega = 39.
+
+    The response of the bob to forces at the joint is 600 times as large across the arm as along it: visits with modes
+    of another placement diverge.
+    """
+    O.reset()
+    arm, start = 2.0, 0.5
+    O.bodies.append(yt.box((0.2,) * 3, (0, 0, 0), fixed=True))
+    place = (arm * math.sin(start), 0, -arm * math.cos(start))
+    bob = O.bodies.append(yt.box((0.2,) * 3, place, material=yt.timber(density=1250)))
+    O.dt, O.engines = 5e-4, yt.engines()
+    yt.connect(0, bob, [(0, 0, 0)], stiffness=(1e8,) * 2, strength=1e9, damping_ratio=damping_ratio)
+    state = O.bodies[bob].state
+    for _ in range(60):
+        O.run(50, True)
+        assert state.pos.norm() == pytest.approx(arm, abs=1e-5)  # stretch by three times the weight: 3e-6 m
+    swing = state.mass * 9.81 * arm * (1 - math.cos(start))
+    assert abs(queries.energy_residual()) < 1e-5 * swing
+    assert find_engine(yw.ContactForces).unconverged == 0

@@ -104,8 +104,10 @@ def test_ratio_of_a_sine():
 
 
 @pytest.mark.parametrize("storeys, floors, ratio", [
-    *((storeys, floors, ratio) for storeys in (1, 3) for floors in ("slabs", "beams") for ratio in (0.01, 0.1)),
-    (1, "beams", 0.03),
+    *((1, floors, ratio) for floors in ("slabs", "beams") for ratio in (0.01, 0.1)),
+    (3, "beams", 0.01),
+    *(pytest.param(*case, marks=pytest.mark.rare)
+      for case in ((1, "beams", 0.03), (3, "beams", 0.1), (3, "slabs", 0.01), (3, "slabs", 0.1))),
 ])
 def test_sway_has_the_stated_ratio(tmp_path, storeys, floors, ratio):
     """Within a tenth, in both directions: contacts are not linear, and the damping couples the modes."""

@@ -30,7 +30,7 @@ def settled(lower, upper, size, seconds=0.5, **options):
 
 
 @pytest.mark.parametrize("vertex_edge", (True, False))
-@pytest.mark.parametrize("size", (0.1, 1.0, 3.0))
+@pytest.mark.parametrize("size", (1.0, *(pytest.param(size, marks=pytest.mark.rare) for size in (0.1, 3.0))))
 def test_flush_cubes(size, vertex_edge):
     """A cube on its equal, shifted both ways. Hertz's overlap of a quarter of the weight is below 0.1 mm."""
     for shift in SHIFTS:

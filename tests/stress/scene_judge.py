@@ -52,7 +52,7 @@ class Verdict:
     plan: Plan
     speed_limit: float  # [m/s]
     moved: float  # largest displacement of a body [m]
-    creep: float  # over CREEP_TIME at the end [m/s]
+    creep: float  # at the end [m/s]
     weight: float  # error of the contact and joint forces on fixed bodies [-]
     handed: float  # of the forces that YADE's container has for them [-]
     answer: list
@@ -119,25 +119,34 @@ def handed_over():
 
 
 class Rest:
-    """Samples of the end of a scene: corners of the free bodies, forces on the fixed ones."""
+    """Samples of the end of a scene, at most half of the time after its last event: corners of the free bodies, forces
+    on the fixed ones."""
 
-    def __init__(self, end):
-        self.end, self.times, self.corners, self.loads = end, [], [], []
+    def __init__(self, plan):
+        last = max([0.0, *(when for when, _ in plan.events)])
+        self.start = plan.duration - min(CREEP_TIME, (plan.duration - last) / 2)
+        self.times, self.corners, self.loads = [], [], []
 
     def sample(self, watch):
-        if O.time < self.end - CREEP_TIME - O.dt / 2:
+        if O.time < self.start - O.dt / 2:
             return
         self.times.append(O.time)
         self.corners.append(watch.corners())
         self.loads.append((load_on_fixed(), handed_over()))
 
-    def creep(self):
-        """Of the fastest corner: slope of the least-squares line. [m/s]"""
-        times = np.array(self.times) - np.mean(self.times)
+    def slopes(self, first):
+        """Of each body's fastest corner from a sample on: slope of the least-squares line. [m/s]"""
+        times = np.array(self.times[first:]) - np.mean(self.times[first:])
         weights = times / (times**2).sum()
         ids = set.intersection(*map(set, self.corners))
-        slopes = (np.tensordot(weights, [corners[k] for corners in self.corners], 1) for k in ids)
-        return max(np.linalg.norm(slope, axis=1).max() for slope in slopes)
+        slopes = (np.tensordot(weights, [corners[k] for corners in self.corners[first:]], 1) for k in ids)
+        return np.array([np.linalg.norm(slope, axis=1).max() for slope in slopes])
+
+    def creep(self):
+        """Of the fastest body, in all samples and in the last quarter: a swing has none in the first, a body that has
+        come to rest none in the second. [m/s]"""
+        count = len(self.times)
+        return np.minimum(self.slopes(0), self.slopes(count - max(2, count // 4))).max() if count > 1 else 0.0
 
 
 def advance(watch, rest):
@@ -162,7 +171,7 @@ def judge(name, build, random):
     """Build a scene, run it -> Verdict. Errors of the health check end it."""
     O.reset()
     plan = build(random)
-    watch, rest, since, error = SceneWatch(plan), Rest(plan.duration), time.process_time(), ""
+    watch, rest, since, error = SceneWatch(plan), Rest(plan), time.process_time(), ""
     try:
         advance(watch, rest)
     except RuntimeError as problem:

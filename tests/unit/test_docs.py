@@ -26,6 +26,7 @@ ROOT = Path(__file__).resolve().parents[2]
 PAGES = [
     ROOT / "README.md", *(page for folder in ("docs", "research") for page in sorted((ROOT / folder).rglob("*.md")))
 ]
+DEFAULT = [ROOT / "README.md", *(ROOT / "docs" / name for name in ("describe_a_house.md", "scenes.md", "python.md"))]
 LINKED = [*PAGES, ROOT / "CONTRIBUTING.md"]
 PROSE = [*LINKED, ROOT / "CHANGELOG.md"]
 LONGEST_SENTENCE, README_WORDS, CHANGELOG_LINES = 40, 700, 40
@@ -101,7 +102,12 @@ def run(command, folder):
     return done
 
 
-@pytest.mark.parametrize("block", [b for page in PAGES for b in blocks(page)], ids=str)
+def marked(block):
+    """The commands of most pages take minutes in all."""
+    return block if block.page in DEFAULT else pytest.param(block, marks=pytest.mark.rare)
+
+
+@pytest.mark.parametrize("block", [marked(b) for page in PAGES for b in blocks(page)], ids=str)
 def test_block(block, places):
     folder, (kind, rest) = places(block.page), block.note
     if kind == "file":

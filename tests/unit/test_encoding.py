@@ -31,7 +31,8 @@ def run(folder, arguments, environment):
     assert b"Traceback" not in done.stderr
 
 
-@pytest.mark.parametrize("out, environment", [(JAPANESE, C_LOCALE), (JAPANESE, {"LC_ALL": "C"}), (BYTES, STRICT)],
+@pytest.mark.parametrize("out, environment", [
+    (JAPANESE, C_LOCALE), pytest.param(JAPANESE, {"LC_ALL": "C"}, marks=pytest.mark.rare), (BYTES, STRICT)],
                          ids=["ASCII", "C", "bytes"])
 def test_folder_of_the_results(tmp_path, out, environment):
     """Written and resumed."""
@@ -40,6 +41,7 @@ def test_folder_of_the_results(tmp_path, out, environment):
     assert json.loads((tmp_path / out / "summary.json").read_text())["verdict"] == "undamaged"
 
 
+@pytest.mark.rare
 def test_names_of_house_and_record(tmp_path):
     """Undecodable bytes in the names of files become escapes in results, pictures and report."""
     house, record = (tmp_path / os.fsdecode(name) for name in (b"house\xff.yaml", b"record\xff.csv"))

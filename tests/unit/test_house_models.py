@@ -192,6 +192,7 @@ def test_leaning_house_stays_flush_and_keeps_its_joints(tmp_path):
     assert ridge == pytest.approx(7.5) and shift == pytest.approx(0.001 * (6.32 - 0.42), rel=1e-6)
 
 
+@pytest.mark.rare
 def test_picture_script(tmp_path):
     script, out = ROOT / "scripts/show/show_house.py", tmp_path / "a.png"
     run = subprocess.run([sys.executable, script, "A", "--out", out], capture_output=True, text=True)

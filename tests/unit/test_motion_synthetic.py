@@ -29,7 +29,7 @@ PEAKS = {
 made = lru_cache(gm.synthetic_motion)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("seed", [*SEEDS[:2], *(pytest.param(seed, marks=pytest.mark.rare) for seed in SEEDS[2:])])
 def test_targets_are_met_for_every_seed(seed):
     """The published values within 5 % (intensity within 0.05), the spectrum above 500 cm/s all over 0.6-0.7 s."""
     motion = made(seed)

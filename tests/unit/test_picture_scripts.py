@@ -34,6 +34,7 @@ def save_runs(folder, ended):
         recorded.save(folder / name / recorded.NAME, frames(ended))
 
 
+@pytest.mark.rare
 def test_gallery(tmp_path):
     save_runs(tmp_path, ended=True)
     done = run("paper/make_gallery.py", tmp_path, "--out", tmp_path / "docs")
@@ -92,10 +93,13 @@ def wrong_events(path):
     recorded.save(path, made)
 
 
-@pytest.mark.parametrize("script", ["show/show_run.py", "show/make_player.py", "show/export_vtk.py"])
-@pytest.mark.parametrize(
-    "damage",
-    [lambda path: None, no_hdf5, truncated, another_kind, huge_shapes, foreign_numbers, no_number, wrong_events])
+DAMAGES = [lambda path: None, no_hdf5, truncated, another_kind, huge_shapes, foreign_numbers, no_number, wrong_events]
+
+
+@pytest.mark.parametrize("script, damage", [
+    *(("show/show_run.py", damage) for damage in DAMAGES),
+    *(pytest.param(script, damage, marks=() if damage is truncated else pytest.mark.rare)
+      for script in ("show/make_player.py", "show/export_vtk.py") for damage in DAMAGES)])
 def test_frames_that_cannot_be_used(tmp_path, script, damage):
     damage(tmp_path / recorded.NAME)
     check_one_line(run(script, tmp_path, "--out", tmp_path / "out"), "frames.h5: ")

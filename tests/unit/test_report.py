@@ -79,6 +79,7 @@ def test_shear_is_a_spring_force(folder):
     assert np.corrcoef(drift, found.storeys.column("shear_ns2"))[0, 1] > 0.5
 
 
+@pytest.mark.rare
 def test_a_resumed_run_has_the_same_tables(folder, tmp_path):
     """Momenta, joint peaks and the first modes are in the checkpoint: the files keep every bit."""
     command(tmp_path, "--duration", "1.2")

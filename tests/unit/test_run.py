@@ -326,6 +326,7 @@ def test_interrupted(tmp_path):
     assert anew.returncode == 0 and summary(tmp_path)["steps"] == 10, anew.stderr
 
 
+@pytest.mark.rare
 def test_resume_without_the_frames_of_the_run(tmp_path, straight):
     """Frames that are missing, of another run, of an earlier time, or a pipe: a line before the first step; without
     frames, or anew, the run goes on.
@@ -357,7 +358,7 @@ def test_resume_without_the_frames_of_the_run(tmp_path, straight):
     assert run("modelA_snow", *longer, "--or-anew").returncode == 0 and len(frames.load(recorded).time) == 4
 
 
-@pytest.mark.parametrize("checkpoint", [0, 0.05])
+@pytest.mark.parametrize("checkpoint", [pytest.param(0, marks=pytest.mark.rare), 0.05])
 def test_a_limit_of_the_file_size(tmp_path, checkpoint):
     """As by `ulimit -f`: one line of this package, and no crash at the end."""
     def limited():
@@ -378,7 +379,9 @@ main("modelA_quake", ["modelA_quake.py", *{options}])
 """
 
 
-@pytest.mark.parametrize("times", [(0.05,), (0.3,), (1.5,), (0.2, 0.21), (2.0, 2.02, 2.3)])
+@pytest.mark.parametrize("times", [
+    (0.3,), (1.5,), (0.2, 0.21), pytest.param((0.05,), marks=pytest.mark.rare),
+    pytest.param((2.0, 2.02, 2.3), marks=pytest.mark.rare)])
 def test_interrupted_at_once_or_twice(tmp_path, times):
     """Ctrl-C while modules are imported, the house is built, or steps are made: a line, no traceback. times: after the
     start of `main` [s].
@@ -419,6 +422,7 @@ def test_output_files_follow_the_umask(tmp_path):
     assert not [name for name in modes if name.startswith(".part")]
 
 
+@pytest.mark.rare
 def test_a_collapse_ends_the_run_on_request(tmp_path, shove):
     """The run ends with the frame that follows the collapse (every 0.05 s), in the state of a run that goes on; also
     when it is resumed.

@@ -15,7 +15,7 @@ from timber_houses.pictures import key_times
 from timber_houses.recording import frames
 
 SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
-SHORT = ["--dt", "2e-4", "--quiet", "--no-views"]
+SHORT = ["--dt", "4e-4", "--quiet", "--no-views"]
 SAME = ("history.csv", "breaks.csv", "storeys.csv", "joints.csv", "columns.csv")
 TOWN = """wave: {velocity: 100, direction: 90}
 lots:
@@ -93,6 +93,7 @@ def test_delayed_motion(town):
     assert far.history.largest_drift()[before].max() < 1e-3 < near.history.largest_drift()[before].max()
 
 
+@pytest.mark.rare
 def test_two_threads_do_what_one_does(tmp_path, shove, town):
     file, alone = town
     done = run("town", file, *SHORT, "--record", shove, "--duration", 0.4, "--out", tmp_path, threads=2)
@@ -104,6 +105,7 @@ def test_two_threads_do_what_one_does(tmp_path, shove, town):
     assert all((a == b).all() for a, b in zip(both[0].position, both[1].position))
 
 
+@pytest.mark.rare
 def test_resumed(tmp_path, shove, town):
     """A town that ended at 0.25 s is continued to 0.4 s: the same to the last bit."""
     file, straight = town

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Convex polyhedra from vertices or half-spaces; contact polygon and separation of two. Lengths in m, world frame."""
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import combinations
 
 import numpy as np
@@ -11,6 +11,9 @@ SNAP_DIGITS = 12  # coordinates [m] are rounded to 1e-12, so that vertices compu
 AXES = np.eye(3)
 FIRST, SECOND = np.array([1, 2, 0]), np.array([2, 0, 1])  # components of the factors of a cross product
 SAME = 1e-9  # [m, or sine of an angle] below this two points, planes or directions count as one
+KEPT = 4096
+"""Number of polyhedra, and of pairs of them, that are kept: variants of a house, and lots of a town, share most
+members. [-]"""
 
 
 def following(points):
@@ -101,6 +104,16 @@ class Polyhedron:
         return inner + (corners.sum(1) / 4 * volumes[:, None]).sum(0) / volumes.sum()
 
 
+def polyhedron(vertices):
+    """Polyhedron of vertices (n, 3), the same object for the same numbers."""
+    return _polyhedron(np.asarray(vertices, float).tobytes())
+
+
+@lru_cache(maxsize=KEPT)
+def _polyhedron(numbers):
+    return Polyhedron(np.frombuffer(numbers).reshape(-1, 3).copy())
+
+
 def _face(points, normal):
     """Face with its points ordered around `normal` and the normal recomputed from them (Newell)."""
     (u, v), local = plane_axes(normal), points - points.mean(0)
@@ -184,6 +197,7 @@ def _clip_edge(polygon, a, b):
     return np.array(apart).reshape(-1, 2)
 
 
+@lru_cache(maxsize=KEPT)
 def contact_polygon(a, b, tolerance):
     """Largest flush contact of two polyhedra: (polygon (n, 3), outward normal of a (3,), area [m2]), or None.
 
@@ -199,9 +213,12 @@ def contact_polygon(a, b, tolerance):
         area = polygon_area(flat)
         if area > (best[2] if best else 0):
             best = origin + products(flat, frame), face_a.normal, area
+    for shared in best[:2] if best else ():
+        shared.setflags(write=False)
     return best
 
 
+@lru_cache(maxsize=KEPT)
 def separation(a, b):
     """Gap [m] between two polyhedra along the best separating axis; negative: depth by which they overlap.
 

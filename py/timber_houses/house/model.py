@@ -9,7 +9,7 @@ from yade_timber.joint_values import JointValues
 
 from ..base.joint_kinds import WALL_COLUMN, WALL_KINDS
 from .errors import HouseError
-from .geometry import Polyhedron
+from .geometry import polyhedron
 
 
 @dataclass(eq=False)
@@ -34,12 +34,12 @@ class Element:
     @cached_property
     def solid(self):
         try:
-            polyhedron = Polyhedron(np.asarray(self.vertices, float))
-            polyhedron.hull
+            solid = polyhedron(self.vertices)
+            solid.hull
         except ValueError as problem:
             raise HouseError(f"{self.source}: {self.kind} {self.name} is not a convex body: {problem}; change its"
                              " dimensions") from None
-        return polyhedron
+        return solid
 
     def move(self, vertices):
         """Give it other corners (n, 3) [m]."""

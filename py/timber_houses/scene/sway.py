@@ -10,8 +10,8 @@ The stated ratio gives one time tau for each mode. A joint has their mean, weigh
 Where contacts carry most of the elastic energy, as in braced houses, joints cannot add the rest: tau is limited.
 """
 import numpy as np
+import scipy  # submodules load on first use; most runs need no optimize
 import yade.wrapper as yw
-from scipy.optimize import lsq_linear
 from yade_timber.plugin import compiled
 from yade_timber.scene.engines import find_engine
 
@@ -40,7 +40,8 @@ def damping_times(ratio, bodies, chosen):
     own = np.array([compiled.dashpot_power(mode.shape.tobytes()) for mode in sway]) / (2 * omega)
     total = energies.sum(1, keepdims=True)
     weights = np.divide(energies, total, out=np.zeros_like(energies), where=total > 0)
-    found = lsq_linear(energies.T @ weights / (2 * omega[:, None]), ratio - own, (0, MOST * 2 * ratio / omega)).x
+    limits = 0, MOST * 2 * ratio / omega
+    found = scipy.optimize.lsq_linear(energies.T @ weights / (2 * omega[:, None]), ratio - own, limits).x
     return np.array([float(f"{time:.3g}") for time in weights @ found])  # the same on all processors
 
 

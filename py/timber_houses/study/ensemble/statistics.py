@@ -4,7 +4,7 @@ from collections import Counter
 from numbers import Real
 
 import numpy as np
-from scipy import stats
+import scipy  # submodules load on first use; a plain run needs none
 
 from ...base.json_types import encode, leaves
 from ...recording.verdict import STATES
@@ -72,7 +72,7 @@ def outcomes(summaries):
 
 def share(count, runs):
     """Share of `count` of some runs, with its Clopper-Pearson interval."""
-    low, high = stats.binomtest(count, runs).proportion_ci(CONFIDENCE, "exact")
+    low, high = scipy.stats.binomtest(count, runs).proportion_ci(CONFIDENCE, "exact")
     return {"runs": count, "share": count / runs, "low": float(low), "high": float(high)}
 
 

@@ -9,7 +9,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import stats
+import scipy  # submodules load on first use; a plain run needs none
 
 SIGNIFICANCE = 0.05
 FINALISTS = 3
@@ -60,12 +60,12 @@ def needed_motions(count):
 def signed_rank(differences):
     """Two-sided p of Wilcoxon's signed-rank test; 1 without a difference that is not zero."""
     differences = _not_zero(differences)
-    return float(stats.wilcoxon(differences).pvalue) if len(differences) else 1.0
+    return float(scipy.stats.wilcoxon(differences).pvalue) if len(differences) else 1.0
 
 
 def exact_sign(fewer, more):
     """Two-sided p of McNemar's exact test: motions under which only the one or only the other house collapses."""
-    return float(stats.binomtest(fewer, fewer + more).pvalue) if fewer + more else 1.0
+    return float(scipy.stats.binomtest(fewer, fewer + more).pvalue) if fewer + more else 1.0
 
 
 def _not_zero(differences):
@@ -76,7 +76,7 @@ def _not_zero(differences):
 def is_lower(differences):
     """Whether the differences are negative by the ranks that `signed_rank` compares."""
     differences = _not_zero(differences)
-    return float(np.sign(differences) @ stats.rankdata(np.abs(differences))) < 0
+    return float(np.sign(differences) @ scipy.stats.rankdata(np.abs(differences))) < 0
 
 
 def holm(values, count):
