@@ -153,5 +153,5 @@ def run(scene, dt):
 def program():
     version = subprocess.run(["dpkg-query", "-W", "-f", "${Version}", "lammps"], capture_output=True, text=True,
                              check=True).stdout
-    return Program("LAMMPS", version, f"body/rounded/polyhedron, k_n={STIFFNESS:g}N/m, c_n=c_t critical or 0", run, (5e-5,),
-                   RADIUS, (("breaks", "no joints but springs"),))
+    return Program("LAMMPS", version, f"body/rounded/polyhedron, k_n={STIFFNESS:g}N/m, c_n=c_t critical or 0", run,
+                   (5e-5,), RADIUS, (("breaks", "no joints but springs"),))
