@@ -4,7 +4,8 @@
     yade -n -x scripts/bench/mechanics/run_column.py timber [--dt S ...] [--rows KEY ...] [--out FOLDER]
     python3 scripts/bench/mechanics/run_column.py jolt
 
-Programs in YADE: timber, polyhedra. Others: dart (python3-dartpy), ode (libode-dev); jolt, rapier, cannon, bullet,
+Programs in YADE: timber, polyhedra. Others: dart (python3-dartpy), lammps, ode (libode-dev),
+siconos (python3-siconos); jolt, rapier, cannon, bullet,
 mujoco (`npm ci` in programs/npm), and jolt_safe, rapier_safe, bullet_safe, mujoco_safe with other settings.
 """
 import argparse
@@ -17,7 +18,7 @@ sys.path.insert(0, str(HERE.parent))
 
 from mechanics.program import column, write_column
 
-IN_PYTHON = ("timber", "polyhedra", "dart", "ode")
+IN_PYTHON = ("timber", "polyhedra", "dart", "lammps", "ode", "siconos")
 
 
 def find(name):
