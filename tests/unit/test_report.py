@@ -101,7 +101,7 @@ def test_page_and_report(folder, tmp_path):
     assert [path.suffix for path in figures.save(page, tmp_path / "quantities", ("png", "pdf"))] == [".png", ".pdf"]
     written = report.write(tmp_path)
     page = (tmp_path / report.PAGE).read_text()
-    assert page.count("<img") == 3 and not re.search(r'(src|href)="(?!data:)', page), "the page is self-contained"
+    assert page.count("<img") == 4 and not re.search(r'(src|href)="(?!data:)', page), "the page is self-contained"
     found = Summary.read(tmp_path)
     for part in (found.sentence, "Joints most loaded", "JMA intensity", "snow steadies a braced house".capitalize(),
                  report.weight(found.weight), "scripts/modelB1_quake.py --start=17.5 --duration=1.3"):
