@@ -5,6 +5,11 @@ from impact_cases import case
 from rows import check
 
 
-@pytest.mark.parametrize("function", case.functions, ids=lambda f: f.__name__)
+LONG = ("restitution_with_the_papers_dashpot",)
+
+
+@pytest.mark.parametrize(
+    "function", [pytest.param(f, marks=pytest.mark.rare if f.__name__ in LONG else ()) for f in case.functions],
+    ids=lambda f: f.__name__)
 def test(function):
     check(function())

@@ -38,6 +38,7 @@ def run(folder, *options, **script):
     return said
 
 
+@pytest.mark.rare
 def test_an_ensemble_is_extended_and_replaced(tmp_path):
     """The first run is the run without --ensemble, bit for bit; the others differ from it by little: after 0.1 s by
     less than 1e-6 of drift.

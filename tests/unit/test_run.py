@@ -235,6 +235,7 @@ def test_frames_of_the_start_are_the_house(straight):
         assert (corners.min(0) - 0.02 < place).all() and (place < corners.max(0) + 0.02).all()
 
 
+@pytest.mark.rare
 def test_two_threads_do_what_one_does(tmp_path, shove, straight):
     done = run("modelB1_quake", *SHOVED, "--record", shove, "--out", tmp_path, threads=2)
     assert done.returncode == 0 and summary(tmp_path)["threads"] == 2, done.stderr
@@ -475,6 +476,7 @@ def test_a_motion_without_shaking(tmp_path):
     assert done.returncode == 0 and summary(tmp_path)["record"]["onset_s"] is None, done.stderr
 
 
+@pytest.mark.rare
 def test_export_alone(tmp_path):
     """With no time to simulate nothing else is written; what lies in the folder stays, also when the file cannot be
     written.

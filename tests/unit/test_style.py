@@ -88,7 +88,7 @@ def expected(tmp_path_factory):
     return files(tmp_path_factory.mktemp("pictures") / "expected", pages())
 
 
-@pytest.mark.parametrize("settings", [estranged, settings_of_a_user])
+@pytest.mark.parametrize("settings", [pytest.param(estranged, marks=pytest.mark.rare), settings_of_a_user])
 def test_pictures_do_not_depend_on_settings(expected, tmp_path, settings):
     with matplotlib.rc_context():
         settings()

@@ -306,6 +306,7 @@ def test_report(results, tmp_path):
     assert f"{NAMES[2]} x {NAMES[7]}" in aliases and aliases.count("no factor (bce)") == len(RESPONSES)
 
 
+@pytest.mark.rare
 def test_report_of_half_a_design(results, tmp_path):
     """No column is without a factor: a dash in its place, and no word of a second kind of errors. The picture has rows
     of factors only.
@@ -341,6 +342,7 @@ def test_report_of_one_motion(results, tmp_path):
     assert not any(word in text for word in ("Bold", "bootstrap", "tested are"))
 
 
+@pytest.mark.rare
 def test_picture(results, tmp_path):
     assert picture.draw(results, tmp_path / "screening.png").stat().st_size > 50000
     assert set(picture.SHOWN) <= set(RESPONSES)
