@@ -7,8 +7,8 @@ namespace yade {
 namespace {
 	Matrix3r axesOf(const Scene& scene, Body::id_t id) { return bodyAt(scene, id)->state->ori.toRotationMatrix(); }
 
-	/// Modes of a joint's bodies, of which one is free. qA, qB: their orientations.
-	/// h: step [s].
+	/// Modes of a joint's bodies, of which one is free, computed again where those of the last step no longer serve.
+	/// qA, qB: orientations of the bodies; h: step [s].
 	void updateModes(TimberJoint& joint, const Quaternionr& qA, const Quaternionr& qB, const timber::SolverBody& a,
 	        const timber::SolverBody& b, Real h)
 	{

@@ -14,8 +14,8 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(OverlapCheck, GlobalEngine,
 		"Compares at an interval the overlap of each pair of bodies, from the distance of their cores, with the "
 		"largest overlap from which their contact points have a force, plastic parts included. The difference is "
-		"uncarried: the bodies have sunk into each other. Prints one line when it exceeds a share of the smaller rounding radius and "
-		"all earlier ones. It changes no motion. Must come after the contact loop.",
+		"uncarried: the bodies have sunk into each other. Prints one line when it exceeds a share of the "
+		"smaller rounding radius and all earlier ones. It changes no motion. Must come after the contact loop.",
 		((Real, interval, 1, Attr::triggerPostLoad, "Simulated time between checks; 0: every step. [s]"))
 		((Real, share, 0.1, Attr::triggerPostLoad, "Uncarried overlap that is reported, over the smaller "
 			"rounding radius. [-]"))

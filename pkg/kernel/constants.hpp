@@ -241,8 +241,8 @@ constexpr double springLeastShare = 1e-3;
 /// modes vary only with it.
 /// Larger: a damping ratio of an earlier placement; smaller: longer steps, 2 us for each computation.
 constexpr double modeAngle = 0.05;
-/// Factor of the error of a joint's impulse in a visit from which on they are computed again, too. [-] 1: visits
-/// diverge; 0.1: more computations, no fewer sweeps.
+/// Factor of the error of a joint's impulse in a visit from which on they are computed again, too. [-] Larger: more
+/// visits, which diverge from 1 on; smaller: more computations of modes.
 constexpr double modeError = 0.25;
 
 } // namespace timber

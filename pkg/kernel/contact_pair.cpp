@@ -43,7 +43,7 @@ namespace {
 
 	/// Impacts of a pair's points: prepare phase. Those that touch in this step, and those that are in an impact.
 	struct Impacts {
-		const PointRecord* records;
+		PointRecord* records;
 		PointStep* steps;
 		size_t count;
 
@@ -68,12 +68,12 @@ namespace {
 		}
 	};
 
-	void prepareImpacts(const Impacts& impacts, const PairProperties& pair, double h, PointRecord* records)
+	void prepareImpacts(const Impacts& impacts, const PairProperties& pair, double h)
 	{
 		std::vector<ImpactState> started;
 		for (size_t i = 0; i < impacts.count; ++i) {
 			if (!impacts.begins(i)) continue;
-			const PointRecord& r = records[i];
+			const PointRecord& r = impacts.records[i];
 			const PointStep& step = impacts.steps[i];
 			started.resize(impacts.count);
 			started[i] = startImpact({ r.overlap, r.normalForce, r.stiffness },
@@ -82,8 +82,9 @@ namespace {
 			        h);
 		}
 		for (size_t i = 0; i < impacts.count; ++i) {
-			if (!started.empty() && impacts.begins(i)) records[i].impact = started[i];
-			impacts.steps[i].rebound = records[i].impact.rebound;
+			PointRecord& r = impacts.records[i];
+			if (!started.empty() && impacts.begins(i)) r.impact = started[i];
+			impacts.steps[i].rebound = r.impact.rebound;
 		}
 	}
 
@@ -192,8 +193,7 @@ void prepareContacts(ContactSolver& solver, size_t k, const PairProperties& pair
 	PointStep* steps = solver.stepsOf(solverPair);
 	for (size_t i = 0; i < count; ++i)
 		steps[i].idle = records[i].isIdle();
-	if (!solver.isExplicit())
-		prepareImpacts({ records.data(), steps, count }, pair, solver.stepLength(), records.data());
+	if (!solver.isExplicit()) prepareImpacts({ records.data(), steps, count }, pair, solver.stepLength());
 }
 
 PairForce storeForces(ContactSolver& solver, size_t k, const PairProperties& pair, std::vector<PointRecord>& records,

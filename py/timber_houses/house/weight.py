@@ -2,7 +2,6 @@
 """Weight of a house by storey, for summaries and drawings. Fixed members (foundations, anchored sills) do not count."""
 from collections import Counter
 
-
 from ..base.gravity import weight_of
 
 HALVED = ("column", "brace")

@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Pushover curves of the storeys of a structure, with the demand of the wall quantity's rule."""
 from ..base import colors
-from ..text.english import direction_name
+from ..recording.verdict import DAMAGE, SAFETY, TILT
+from ..text.english import direction_name, ratio
 from .figures import new_figure
 from .style import default_style
 
 DPI = 170
 PANEL = 2.3, 1.9
 """Of one storey. [inch]"""
-DAMAGE, SAFETY = 1 / 120, 1 / 30
-"""Drifts with a tick. [-]"""
+TICKS = SAFETY.drift, 2 * SAFETY.drift, TILT.drift
+"""Drifts. [-]"""
 
 
 @default_style()
@@ -27,9 +28,8 @@ def figure(name, structure):
             axis.plot(drifts, shears, color=color, lw=1, label=direction_name(direction))
         _demand(axis, next(iter(sides.values())))
         axis.set(xlim=0, ylim=0)
-        ticks = [0, SAFETY, 2 * SAFETY, 3 * SAFETY]
-        axis.set_xticks(ticks, ["0", "1/30", "1/15", "1/10"])
-        axis.axvline(DAMAGE, color="#999999", lw=0.6, ls=":")
+        axis.set_xticks([0, *TICKS], ["0", *map(ratio, TICKS)])
+        axis.axvline(DAMAGE.drift, color="#999999", lw=0.6, ls=":")
         axis.set_title(f"{name}, storey {storey}: shear [kN] over drift", fontsize=6.5, loc="left", pad=2)
         axis.tick_params(labelsize=6, pad=1.5, length=2)
         axis.grid(alpha=0.25)
