@@ -24,7 +24,6 @@ from ..recording.failures import first_failures
 from ..text.english import counted, directed, mode_name, period_text, sentence, storey_name
 from ..text.lines import before, lines
 from . import REPORT, fonts, pushover, quantities, report_pictures
-from .panels import panels
 from .style import default_style
 
 PAGE, PDF = REPORT
@@ -113,7 +112,8 @@ def pushover_picture(summary):
 def house(frames, summary, failures):
     """Meaning of the marks in the plans, numbers of members, weight, natural periods, seismic index."""
     kinds = frames.elements.kind
-    counts = {"column": kinds.count("column"), "brace": kinds.count("brace"), "walled bay": len(panels(frames, 0))}
+    counts = {"column": kinds.count("column"), "brace": kinds.count("brace"),
+              "walled bay": len({*zip(frames.sheets.low, frames.sheets.high)})}
     (_, counts["joint"]), (_, counts["wall sheet"]) = summary.joints_and_sheets
     numbers = ", ".join(counted(count, kind) for kind, count in counts.items() if count)
     marks = {"blue: braces (thin end: foot)": counts["brace"],

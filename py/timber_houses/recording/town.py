@@ -61,7 +61,8 @@ def town_frames(name, lots, record):
     numbers = sorted({*range(0, len(longest.time), stride), len(longest.time) - 1})
     offsets = frames.starts([lot.kept for lot in placed])
     first_joints = frames.starts([lot.run.joints.name for lot in placed])
-    town = frames.Frames(f"Town {name}", name, name, longest.version, _elements(placed), _joints(placed, offsets))
+    town = frames.Frames(f"Town {name}", name, name, longest.version, _elements(placed), _joints(placed, offsets),
+                         sheets=_sheets(placed, offsets))
     town.time = [longest.time[k] for k in numbers]
     for k in numbers:
         states = [lot.state(k) for lot in placed]
@@ -117,16 +118,29 @@ def _elements(lots):
 def _joints(lots, offsets):
     """Joints with the element numbers of the town. offsets: number of the first element of each lot"""
     parts = [lot.run.joints for lot in lots]
-    ends = {key: [np.searchsorted(lot.kept, getattr(j, key)) + offset for lot, j, offset in zip(lots, parts, offsets)]
-            for key in ("a", "b")}
+    first_sheets = frames.starts([lot.run.sheets.type for lot in lots])
     return frames.Joints(
         name=[f"{lot.name}.{name}" for lot in lots for name in lot.run.joints.name],
         **{key: [value for j in parts for value in getattr(j, key)] for key in ("kind", "storey")},
         side=[town_side(side, lot.axes) for lot, j in zip(lots, parts) for side in j.side],
-        **{key: np.concatenate(values).astype("i4") for key, values in ends.items()},
+        **{key: _numbers(lots, parts, key, offsets) for key in ("a", "b")},
+        sheet=np.concatenate([np.where(j.sheet < 0, -1, j.sheet + first) for j, first in zip(parts, first_sheets)]),
         **{key: np.concatenate([getattr(j, key) for j in parts])
            for key in ("anchor", "springs", "damaged", "strength")},
     )
+
+
+def _sheets(lots, offsets):
+    """Sheets with the element numbers of the town."""
+    parts = [lot.run.sheets for lot in lots]
+    return frames.Sheets(*([value for part in parts for value in getattr(part, key)] for key in ("type", "opening")),
+                         **{key: _numbers(lots, parts, key, offsets) for key in ("low", "high")})
+
+
+def _numbers(lots, parts, key, offsets):
+    """Element numbers of the lots' tables as those of the town."""
+    return np.concatenate([np.searchsorted(lot.kept, getattr(part, key)) + offset
+                           for lot, part, offset in zip(lots, parts, offsets)]).astype("i4")
 
 
 def _motion(lots):
