@@ -93,7 +93,7 @@ def info(run, largest):
         "result": (plain(english.sentence(run.summary)) if run.summary
                    else f"Not ended yet: the first {run.time[-1]:.1f} s"),
         "japanese": ({"title": plain(japanese.title(run.summary)), "result": plain(japanese.result(run.summary)),
-                      "origin": plain(provenance(run, japanese))} if isinstance(run.summary, Summary) else None),
+                      "origin": plain(provenance(run, japanese))} if run.summary else None),
         "origin": plain(provenance(run)),
         "elements": [{"name": plain(name), "kind": plain(kind), "group": plain(group), "storey": int(storey),
                       **uplift(largest, name)}

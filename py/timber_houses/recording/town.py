@@ -19,14 +19,14 @@ SIDES = {"east": (1, 0), "north": (0, 1), "west": (-1, 0), "south": (0, -1)}
 
 
 def summary(name, results, record):
-    """TownSummary. results: {name of a lot: (its Summary, (3, 3) axes of the house)}; record: Record of the motion that
-    reaches the town
+    """TownSummary. results: {name of a lot: (its Summary, (3, 3) axes of the house, LotResult)}; record: Record of the
+    motion that reaches the town
     """
-    events = [replace(event, facts=_in_town(event.facts, axes), lot=lot) for lot, (one, axes) in results.items()
+    events = [replace(event, facts=_in_town(event.facts, axes), lot=lot) for lot, (one, axes, _) in results.items()
               for event in one.events if event.kind in SHOWN]
-    lots = [one for one, _ in results.values()]
-    verdicts = [lot.verdict for lot in lots]
-    return TownSummary(model=name, verdict=max(verdicts, key=verdict.STATES.index), verdicts=verdicts,
+    lots = [one for one, *_ in results.values()]
+    return TownSummary(model=name, verdict=max((lot.verdict for lot in lots), key=verdict.STATES.index),
+                       lots=[result for *_, result in results.values()],
                        collapsed=any(lot.collapsed for lot in lots),
                        collapse_time_s=min((lot.collapse_time_s for lot in lots if lot.collapsed), default=None),
                        tilt_time_s=min((lot.tilt_time_s for lot in lots if lot.tilt_time_s is not None), default=None),
@@ -51,9 +51,10 @@ def town_side(side, axes):
     return "+".join(nearest(word) if word in SIDES else word for word in side.split("+"))
 
 
-def town_frames(name, lots, record):
-    """Frames of a town without grounds and contacts. lots: (name, (3, 3) axes of the house, (3,) place [m], Frames);
-    record: as in `summary`"""
+def town_frames(summary, lots):
+    """Frames of a town without grounds and contacts. summary: TownSummary; lots: (name, (3, 3) axes of the house, (3,)
+    place [m], Frames)"""
+    name = summary.model
     placed = [_Lot(*lot) for lot in lots]
     longest = max((lot.run for lot in placed), key=lambda run: len(run.time))
     count = sum(len(lot.kept) for lot in placed)
@@ -69,7 +70,7 @@ def town_frames(name, lots, record):
         for key, values in zip(("position", "orientation", "load", "broken"), map(np.concatenate, zip(*states))):
             getattr(town, key).append(values)
     town.motion = _motion(placed)
-    town.summary = summary(name, {lot.name: (lot.run.summary, lot.axes) for lot in placed}, record)
+    town.summary = summary
     town.history = History(("time [s]",), np.empty((0, 1)))
     town.breaks = _breaks(placed, first_joints)
     return town
