@@ -184,7 +184,7 @@ def test_a_writer_that_fails_leaves_the_earlier_checkpoint(tmp_path, monkeypatch
     def full(*_):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("yade_timber.atomic_write.shutil.copyfileobj", full)
+    monkeypatch.setattr("timber_houses.base.atomic_write.shutil.copyfileobj", full)
     with pytest.raises(OSError, match="No space"):
         checkpoint.save(tmp_path / "a.yade", {"name": "x"}, {})
     assert [path.name for path in tmp_path.iterdir()] == ["a.yade"] and (tmp_path / "a.yade").read_bytes() == before

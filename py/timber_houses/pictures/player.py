@@ -14,9 +14,9 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.colors import to_hex
-from yade_timber.atomic_write import write_text
 
 from ..base import colors
+from ..base.atomic_write import write_text
 from ..base.errors import RunError
 from ..base.html import DATA, html
 from ..recording import frames, peaks

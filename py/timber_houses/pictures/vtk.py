@@ -12,8 +12,8 @@ contacts.pvd  contact points; point data: force [N] on the second element, eleme
 from xml.etree import ElementTree
 
 import numpy as np
-from yade_timber.atomic_write import write_bytes, write_text
 
+from ..base.atomic_write import write_bytes, write_text
 from ..base.errors import RunError
 from ..base.files import make_folder
 from ..recording.frames import rotated, starts

@@ -37,8 +37,8 @@ from pathlib import Path
 
 import h5py
 import numpy as np
-from yade_timber.atomic_write import write_bytes
 
+from ..base.atomic_write import write_bytes
 from ..base.errors import RunError
 from ..base.json_types import encode
 from ..base.time_step import rest_stride

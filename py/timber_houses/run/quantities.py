@@ -9,9 +9,9 @@ from typing import NamedTuple
 
 import numpy as np
 import yade.wrapper as yw
-from yade_timber.atomic_write import write_text
 from yade_timber.scene.engines import find_engine, gravity_now
 
+from ..base.atomic_write import write_text
 from ..base.table import csv_text
 from ..recording import quantities
 from ..recording.history import DIRECTIONS

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import yade.wrapper as yw
-from yade_timber.atomic_write import remove
 from yade_timber.scene.engines import find_engine
 
+from ..base.atomic_write import remove
 from ..base.errors import RunError
 from ..recording import frame_log, frames
 from ..recording.append_log import AppendLog

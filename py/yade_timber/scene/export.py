@@ -2,10 +2,10 @@
 """The scene as JSON, for other solvers."""
 import json
 import math
+from pathlib import Path
 
 import yade.wrapper as yw
 
-from ..atomic_write import write_text
 from . import engines
 from .background import between_steps
 from .joints import joins_bodies
@@ -60,7 +60,7 @@ def export_scene(path):
         "joints": ([describe_joint(joint) for joint in joint_engine.joints if joins_bodies(joint)] if joint_engine
                    else []),
     }
-    write_text(path, json.dumps(content, indent=1, allow_nan=False))
+    Path(path).write_text(json.dumps(content, indent=1, allow_nan=False), encoding="ascii")
 
 
 def describe_material(material):
