@@ -8,7 +8,7 @@ import yade.wrapper as yw
 
 from . import engines
 from .background import between_steps
-from .joints import joins_bodies
+from .joints import PARAMETERS, attribute, joins_bodies
 
 O = yw.Omega()
 
@@ -105,19 +105,19 @@ def describe_joint(joint):
             "wall": describe_wall(joint) if joint.law == "wall" else None}
 
 
+def describe_law(joint):
+    """Dictionary of a TimberJoint's law: its envelope (n, 2) [m, N] and parameters [-, m, N, N/m]."""
+    return {"envelope": [list(point) for point in joint.envelope],
+            **{name: getattr(joint, attribute(name)) for name in PARAMETERS[joint.law]}}
+
+
 def describe_slip(joint, state):
-    """Dictionary of a yielding TimberJoint: friction_share [-], stretches [m], envelope (n, 2) [m, N], plastic (n, 3)
-    in the world and largest (n,) [m]."""
-    return {"friction_share": joint.frictionShare, "softening_stretch": joint.softeningStretch,
-            "ultimate_stretch": joint.ultimateStretch, "envelope": [list(point) for point in joint.envelope],
-            "plastic": [list(state.ori * p) for p in joint.plasticStretches], "largest": list(joint.largestStretches)}
+    """The same of a yielding TimberJoint, with its stretches: plastic (n, 3) in the world and largest (n,) [m]."""
+    return {**describe_law(joint), "plastic": [list(state.ori * p) for p in joint.plasticStretches],
+            "largest": list(joint.largestStretches)}
 
 
 def describe_wall(joint):
-    """Dictionary of a TimberJoint of a wall: envelope (n, 2) [m, N], its cycles, and the history of each spring."""
-    return {"envelope": [list(point) for point in joint.envelope], "friction_force": joint.frictionForce,
-            "pinched_stiffness": joint.pinchedStiffness, "reload_target": joint.reloadTarget,
-            "reload_share": joint.reloadShare, "reload_stiffness": joint.reloadStiffness,
-            "reload_stretch": joint.reloadStretch, "reload_power": joint.reloadPower,
-            "springs": [{key: list(value) if isinstance(value, tuple) else value for key, value in spring.items()}
-                        for spring in joint.cycles]}
+    """The same of a TimberJoint of a wall, with the history of each spring."""
+    return {**describe_law(joint), "springs": [{key: list(value) if isinstance(value, tuple) else value
+                                                for key, value in spring.items()} for spring in joint.cycles]}

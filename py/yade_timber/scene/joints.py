@@ -1,18 +1,21 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Joints between bodies of the scene that is loaded in YADE."""
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 import yade.wrapper as yw
 from yade.minieigenHP import Vector2, Vector3
 
-from ..joint_values import JointValues
+from ..joint_values import JointValues, WallCycles
 from . import arguments
 from .background import between_steps
 from .engines import find_engine
 
 PER_JOINT = {"spring": False, "joint": True}
 """Owner of stiffness and strength -> TimberJoint.perJoint."""
+PARAMETERS = {"brittle": (), "slip": ("friction_share", "softening_stretch", "ultimate_stretch"),
+              "wall": tuple(part.name for part in fields(WallCycles))}
+"""Law of the springs -> its parameters besides the envelope, as JointValues or WallCycles name them."""
 O = yw.Omega()
 
 
@@ -139,29 +142,21 @@ def make_joint(id1, id2, springs):
     s1, s2 = O.bodies[id1].state, O.bodies[id2].state
     points = [Vector3(*p) for p in springs.points]
     direction = Vector3(*springs.normal) if springs.normal is not None else s2.pos - s1.pos
+    law = {attribute(name): getattr(springs.cycles or springs, name) for name in PARAMETERS[springs.law]}
     return yw.TimberJoint(id1=id1, id2=id2, anchors1=[s1.ori.conjugate() * (p - s1.pos) for p in points],
                           anchors2=[s2.ori.conjugate() * (p - s2.pos) for p in points],
                           normal=s1.ori.conjugate() * direction.normalized(), kn=springs.kn, ks=springs.ks,
                           strength=springs.strength, perJoint=PER_JOINT[springs.per],
                           broken=[int(springs.broken)] * len(points), dampingRatio=springs.damping_ratio,
                           dampingTime=springs.damping_time, initialDamping=springs.initial_damping,
-                          kind=springs.kind, name=springs.name, law=springs.law, **_LAWS[springs.law](springs))
+                          kind=springs.kind, name=springs.name, law=springs.law,
+                          envelope=[Vector2(*point) for point in springs.envelope], **law)
 
 
-def _slip(springs):
-    return {"frictionShare": springs.friction_share, "softeningStretch": springs.softening_stretch,
-            "ultimateStretch": springs.ultimate_stretch, "envelope": [Vector2(*point) for point in springs.envelope]}
-
-
-def _wall(springs):
-    cycles = springs.cycles
-    return {"envelope": [Vector2(*point) for point in springs.envelope], "frictionForce": cycles.friction_force,
-            "pinchedStiffness": cycles.pinched_stiffness, "reloadTarget": cycles.reload_target,
-            "reloadShare": cycles.reload_share, "reloadStiffness": cycles.reload_stiffness,
-            "reloadStretch": cycles.reload_stretch, "reloadPower": cycles.reload_power}
-
-
-_LAWS = {"brittle": lambda springs: {}, "slip": _slip, "wall": _wall}
+def attribute(parameter):
+    """'friction_share' -> 'frictionShare': name of a parameter in TimberJoint."""
+    first, *others = parameter.split("_")
+    return first + "".join(map(str.capitalize, others))
 
 
 def joins_bodies(joint):
