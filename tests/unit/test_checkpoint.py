@@ -106,7 +106,7 @@ def package(tmp_path_factory):
         ("study/driver.py", False),
         ("text/english.py", False),
         ("plugin/scene/engines.py", True),
-        ("plugin/joint_values.py", True),
+        ("plugin/energy_terms.py", True),
         ("scene/scenario.py", True),
         ("run/runner.py", True),
         ("run/summary.py", True),
