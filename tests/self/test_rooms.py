@@ -20,7 +20,7 @@ RESEARCH = "timber_research"
 """Package beside the installed ones."""
 YADE = {"yade"}
 """YADE itself, and all of the plugin but WITHOUT_YADE."""
-WITHOUT_YADE = {"yade_timber.energy_terms"}
+WITHOUT_YADE = {"yade_timber.energy_terms", "yade_timber.log"}
 NOT_OF_THE_PLUGIN = {"timber_houses", "h5py", "matplotlib", "yaml", "scipy"}
 ALL = {"house", "motion", "scene", "run", "recording", "text", "pictures", "study", "api"}
 FORBIDDEN = {

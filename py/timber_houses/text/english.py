@@ -295,9 +295,10 @@ def ratio(drift, below="below "):
 
 
 def joint_place(kind, storey, side):
-    """'column-beam joint, storey 1, west side' from the values of breaks.csv."""
-    walls = side if side == "inside" else f"{side.replace('+', ' and ')} side{'s' * ('+' in side)}"
-    return f"{kind.replace('_', '-')} joint, {f'storey {storey}' if storey.isdigit() else storey}, {walls}"
+    """'column-beam joint, storey 1, west side' from the values of breaks.csv; '' for storey and side: unknown."""
+    walls = side if side in ("inside", "") else f"{side.replace('+', ' and ')} side{'s' * ('+' in side)}"
+    named = f"{kind.replace('_', '-')} joint".lstrip()
+    return ", ".join(filter(None, (named, f"storey {storey}" if storey.isdigit() else storey, walls)))
 
 
 COUPLED = 0.5

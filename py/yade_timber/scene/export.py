@@ -43,12 +43,10 @@ def export_scene(path):
     initial_damping, broken (one flag per spring), kind, name, slip and wall (the parameters and the history of each
     spring with this law; null for both: brittle); none of a removed body.
     """
-    for body in O.bodies:
-        if not isinstance(body.shape, yw.RoundedPolyhedron):
-            raise ValueError(f"export_scene: body {body.id} is no RoundedPolyhedron")
+    bodies = polyhedra("export_scene")
     joint_engine = engines.find_engine(yw.JointEngine)
     materials = {}
-    elements = [describe_element(body, materials) for body in O.bodies]
+    elements = [describe_element(body, materials) for body in bodies]
     content = {
         "format": "yade-timber scene 1",
         "units": "SI; world frame x east, y north, z up",
@@ -61,6 +59,14 @@ def export_scene(path):
                    else []),
     }
     Path(path).write_text(json.dumps(content, indent=1, allow_nan=False), encoding="ascii")
+
+
+def polyhedra(caller):
+    """List of the scene's bodies. Raises ValueError for one that is no RoundedPolyhedron."""
+    for body in O.bodies:
+        if not isinstance(body.shape, yw.RoundedPolyhedron):
+            raise ValueError(f"{caller}: body {body.id} is no RoundedPolyhedron")
+    return list(O.bodies)
 
 
 def describe_material(material):
