@@ -156,7 +156,7 @@ def breaks_in_frames(run):
 
 
 def main_event(run):
-    """Time around which the page plays slowly [s]: collapse, drift of 1/10, first fall, largest drift; else None."""
+    """Time around which the page plays slowly [s]: collapse, tilt, first fall, largest drift; else None."""
     return next((float(time) for time, reason in named(run) if reason not in (STRONGEST, FIRST_DAMAGE)), None)
 
 

@@ -19,7 +19,7 @@ from ..recording import frames
 from ..recording.damage import SIDES, DamageSurvey, Level, State
 from ..recording.events import Collapse, EventLog, FirstBreak, OwnWeight, Tilt
 from ..recording.summary_parts import ModesAt
-from ..recording.verdict import TILT, UNDAMAGED
+from ..recording.verdict import FALL, FALLEN_ANGLE, TILT, UNDAMAGED
 from ..scene.scenario import level_marks
 from .modal import modes_now
 
@@ -115,6 +115,11 @@ def largest_so_far():
     return list(zip(monitor.load, monitor.pull, monitor.shear, monitor.opening))
 
 
+def set_limits(monitor):
+    """Give a HouseMonitor the limits of the verdict."""
+    monitor.updateAttrs({"tiltDrift": TILT.drift, "fallDrop": FALL, "fallenAngle": FALLEN_ANGLE})
+
+
 class Observer:
     """Notes events, peak drifts of structures and first natural modes of the run. progress: of a checkpoint"""
 
@@ -125,7 +130,7 @@ class Observer:
         self.peaks = progress["peaks"] if progress else dict.fromkeys(self.survey.structures, 0.0)
         self.modes = decode(ModesAt | None, progress["modes"]) if progress else None
         self.upright = progress["upright"] if progress else (0.0, [])
-        find_engine(yw.HouseMonitor).tiltDrift = TILT.drift
+        set_limits(find_engine(yw.HouseMonitor))
         motion = describe_motion()
         self.shaking = motion and motion.first(HARMFUL)
 
@@ -139,7 +144,7 @@ class Observer:
         return [level for level in self.survey.levels if level.structure == self.survey.structures[0]]
 
     def fall(self):
-        """Start of a collapsed house's fall: a storey drift passes 1/10, or a floor is down [s]; None if it stands."""
+        """Start of a collapsed house's fall: a storey tilts, or a floor is down [s]; None if it stands."""
         monitor = find_engine(yw.HouseMonitor)
         return (float(np.nanmin([monitor.tiltTime, monitor.collapseTime])) if math.isfinite(monitor.collapseTime)
                 else None)

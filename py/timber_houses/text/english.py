@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Summaries and events in English."""
+import math
+
 from ..recording import verdict
 from ..recording.summary import TownSummary
 
@@ -244,8 +246,8 @@ PHRASES = {
     "collapse": lambda facts: "collapse: a floor has come down by half a storey",
     "own_weight": own_weight,
     "structure_fallen": lambda facts: f"{facts.structure} has fallen: a level is down by half a storey",
-    "columns_lost": lambda facts: (f"{facts.number} of {facts.total} columns inclined by more than 45 degrees or"
-                                   " without a joint"),
+    "columns_lost": lambda facts: (f"{facts.number} of {facts.total} columns inclined by more than"
+                                   f" {math.degrees(verdict.FALLEN_ANGLE):.0f} degrees or without a joint"),
     "snow_fallen": snow_fallen,
     "shaking_begins": lambda facts: "the shaking begins",
     "strongest_shaking": lambda facts: "strongest shaking",
