@@ -4,10 +4,11 @@
 /// Equations (1) to (7): docs/theory.md, section 5.
 ///
 /// Of the tangential impulses that (5) admits p_s is the closest to (4). A visit is then a step along the gradient of a
-/// convex function, followed by projections on convex sets: repeated visits lead to a fixed point. (An impulse shortened
-/// in its own direction may alternate between two values for ever where the responses of the two tangents differ.)
-/// Pairs with several points do not get the velocity w of an impact after the sweeps: their dashpots add up and dissipate
-/// more than (2) of impact.hpp.
+/// convex function, followed by projections on convex sets: repeated visits lead to a fixed point. (An impulse that is
+/// shortened in its own direction may alternate between two values for ever where the responses of the two tangents
+/// differ.)
+/// Pairs with several points do not get the velocity w of an impact after the sweeps: their dashpots add up and
+/// dissipate more than (2) of impact.hpp.
 /// The closing displacement d of (7) is at most the overlap left until the force is constant.
 ///
 /// Convergence. In (3) p_n is a continuous function of b that does not increase, with slopes between -1/a and 0

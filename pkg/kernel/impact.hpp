@@ -8,7 +8,8 @@
 ///     zeta_c = zeta sqrt(a m 2q/(q+1))                                                          (1)
 /// Its velocity n' = dx/dt' is largest where the force ends:
 ///     e_r = exp(-2 zeta_c acos(zeta_c) / sqrt(1 - zeta_c^2)),   zeta_c > 1: acosh, zeta_c^2 - 1         (2)
-/// is the restitution at any speed (Schwager and Poeschel, Granular Matter 9 (2007), 465; Antypov and Elliott, EPL 94 (2011), 50004).
+/// is the restitution at any speed (Schwager and Poeschel, Granular Matter 9 (2007), 465; Antypov and Elliott, EPL 94
+/// (2011), 50004).
 /// An impact of a few steps, or of a fraction of one, is not resolved by them: the solver bounds its velocity of
 /// separation by w = e_r times the touch speed ((6) of docs/theory.md), for its duration and as long as the bound acts.
 /// The steps resolve longer ones.
@@ -18,8 +19,8 @@
 /// Symbols: a inverse effective mass [1/kg], m equivalent mass (Eq. 43) [kg], n overlap [m], q power of the law (Hertz:
 /// 1.5) [-].
 /// A point with the strength F_Y has the total force min(F_Y, F + C n'). The unloading from rest at the overlap d ends
-/// with e_r^1/2 times the velocity v(d) = (2 a U(d))^1/2. So does an impact that is crushed, d: the elastic overlap at the
-/// strength. Otherwise d is that at which the loading ends. Both follow from one quadrature:
+/// with e_r^1/2 times the velocity v(d) = (2 a U(d))^1/2. So does an impact that is crushed, d: the elastic overlap at
+/// the strength. Otherwise d is that at which the loading ends. Both follow from one quadrature:
 ///     d(v^2)/dn = -2 a min(F_Y, F + C v),   v = n'                                              (3)
 #pragma once
 #include "bearing_strength.hpp"
@@ -74,8 +75,8 @@ struct Touch {
 	double crushed = 0; ///< plastic overlap [m]
 };
 
-/// Velocity after an impact (3) over v(d) at the strength, d, before crushing begins. ratio: zeta_c; q: power; speed: of
-/// closing, over v(d); rest: part of its energy that crushes beyond d, output. [-]
+/// Velocity after an impact (3) over v(d) at the strength, d, before crushing begins. ratio: zeta_c; q: power; speed:
+/// of closing, over v(d); rest: part of its energy that crushes beyond d, output. [-]
 double reboundAtStrength(double ratio, double q, double speed, double& rest);
 
 /// Impact of a point whose surfaces have touched in the last step. h: step [s].
