@@ -14,8 +14,8 @@ NAMES = [f"{END}.png",
 """Files that `write` makes."""
 
 
-def write(folder, results=None, pdf=False):
-    """Write the pictures of a run into a folder; returns their paths. results: folder of the frames; pdf: PDFs, too.
+def write(folder, path=None, pdf=False):
+    """Write the pictures of a run into a folder; returns their paths. path: of the frames; pdf: PDFs, too.
 
     Without OpenGL those that need none are written, with a note. Raises RunError when the frames cannot be read,
     OSError when a picture cannot be written.
@@ -23,7 +23,7 @@ def write(folder, results=None, pdf=False):
     from . import figures, player, sheets
     from .renderer import NoOpenGL
 
-    path, endings = (results or folder) / frames.NAME, ("png", "pdf") if pdf else ("png",)
+    path, endings = path or folder / frames.NAME, ("png", "pdf") if pdf else ("png",)
     recorded = frames.load(path)
     pages = [(END, ("png",), partial(sheets.both_views, recorded, -1, sheets.END_DPI)),
              *((name, endings, page) for name, page in _pages(recorded, path.parent))]
