@@ -127,7 +127,9 @@ namespace {
 void HouseMonitor::validate() const
 {
 	requireNonNegative("HouseMonitor.interval", interval);
-	requirePositive("HouseMonitor.tiltDrift", tiltDrift);
+	for (const auto& [name, limit] : { std::pair("HouseMonitor.tiltDrift", tiltDrift),
+	             std::pair("HouseMonitor.fallDrop", fallDrop), std::pair("HouseMonitor.fallenAngle", fallenAngle) })
+		require(limit > 0, name, limit, "> 0");
 	for (Real height : heights)
 		requirePositive("HouseMonitor.heights", height);
 	for (int level : levels)
@@ -185,12 +187,13 @@ boost::python::list HouseMonitor::pyColumns() const
 void HouseMonitor::recordColumns()
 {
 	const std::vector<bool> joined = joinedBodies(*scene);
+	const Real leastVertical = std::isfinite(fallenAngle) ? math::cos(fallenAngle) : -1;
 	std::vector<std::vector<Real>> drifts(2 * heights.size()); // in the order of peak
 	for (size_t k = 0; k < math::min(columnBodies.size(), columnStoreys.size()); ++k) {
 		const Body* b = bodyAt(*scene, columnBodies[k]);
 		if (!b || !joined[columnBodies[k]] || size_t(columnStoreys[k]) > heights.size()) continue;
 		const Vector3r axis = b->state->ori * (b->state->refOri.conjugate() * Vector3r::UnitZ());
-		if (axis.z() < math::sqrt(Real(0.5))) continue;
+		if (axis.z() < leastVertical) continue;
 		drifts[2 * columnStoreys[k] - 2].push_back(axis.y());
 		drifts[2 * columnStoreys[k] - 1].push_back(axis.x());
 	}
@@ -221,7 +224,7 @@ void HouseMonitor::record()
 			tiltTime = scene->time;
 			tiltDirection = math::abs(ns) > math::abs(ew) ? "ns" : "ew";
 		}
-		if (!(collapseTime >= 0) && above.z() < -height / 2) collapseTime = scene->time;
+		if (!(collapseTime >= 0) && above.z() < -fallDrop * height) collapseTime = scene->time;
 		rows.insert(rows.end(), { ns, ew, -above.z() });
 		below = above;
 	}

@@ -13,7 +13,7 @@ from itertools import chain
 from timber_research import SCRIPTS, two_ensembles
 from timber_research.claims import parse_run
 from timber_research.report import markdown_table
-from yade_timber.atomic_write import write_text
+from timber_houses.base.atomic_write import write_text
 from timber_houses.base.table import csv_text
 from timber_houses.house.disturbance import LARGEST
 from timber_houses.run.options import scripted

@@ -129,7 +129,7 @@ constexpr double sweepReduction = 0.1;
 
 /// Smallest convergence threshold of the sweeps after the first one, as a share of the points' impulses. [-] An island
 /// at rest is solved to a share of its own residual changes, but not beyond this. 1e-3: braces of a loaded house at rest
-/// turn to and fro by 1e-3 rad/s; 1e-6: by 1e-6 rad/s; 1e-7: more sweeps at rest, and no less motion.
+/// oscillate at up to 1e-3 rad/s; 1e-6: by 1e-6 rad/s; 1e-7: more sweeps at rest, and no less motion.
 constexpr double restTolerance = 1e-6;
 
 /// Smallest convergence threshold as a share of the island's momenta. [-] Where a loose body has just touched, all
@@ -139,7 +139,7 @@ constexpr double roundingTolerance = 1e-7;
 
 /// Decrease of the convergence threshold during the sweeps of a step from which on they go on with the new one. [-]
 /// Where a warm start of 1 N s ends as 1e-4 N s, the threshold of the first sweep is larger than the impulses. 1:
-/// sweeps for the last per cent; 0: light members that are struck gain energy.
+/// more sweeps for changes of some per cent; 0: light members that are struck gain energy.
 constexpr double thresholdDrop = 0.25;
 
 /// Sweeps over changing pairs; accelerated ones follow. [-] Larger: more sweeps where light members are pressed between

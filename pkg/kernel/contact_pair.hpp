@@ -29,7 +29,7 @@ struct ElasticInput {
 /// Elastic step of all points. Records follow the features; those of features no longer in contact are removed.
 /// points: sorted by id; records: in-out.
 /// Returns the energy released with points that ceased to exist, minus the energy given to new points. [J] Negative:
-/// those points were in debt.
+/// those points had returned more energy than they had stored.
 template <class Law>
 double elasticPair(const Law& law, const ElasticInput& input, const std::vector<ContactPoint>& points,
         std::vector<PointRecord>& records);

@@ -1,48 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Contact impulses of one step by projected Gauss-Seidel: implicit springs and dashpots, no tension, Coulomb friction.
 ///
-/// Each of the four points of a face has a critical dashpot for the mass of the whole pair (Eqs. 41-43). On a light
-/// slender member their rates add up to 1e5 /s, and explicit dashpots (Eqs. 17, 18) are unstable above some 1e-5 s.
-/// Springs of heavily loaded light members are too stiff for the step as well. Both are therefore implicit here:
-/// dashpots by the theta method, springs by Newmark's method.
-/// Normal and tangential impulse p of a point obey, each in its direction,
-///     p = h e - h C ((1 - theta) v + theta v') - beta h2 K (v' - v)                            (1)
-///     theta = 1/2 + x / (12 + 2 x),   x = a h C
-///     beta  = y / (4 y + 2),          y = a h2 K
-/// theta tends to 1/2 (second order) for slow dashpots and to 1 (strong damping) for fast ones; the exact decay exp(-x)
-/// has this theta to 1 %. beta is negligible for springs that the step resolves (leapfrog) and 1/4 for stiff ones. N
-/// springs on one member are stable if N y (1/4 - beta) = N y / (8 y + 4) < 1: up to eight at any step.
-/// Let u be the current relative velocity, in which the current impulse p0 acts already: v' = u + a (p - p0). Then
-/// (1) is
-///     p = f p0 + B - M u                                                                        (2)
-///     M = D / (1 + a D),   f = a M,   B = (h e + Q v) / (1 + a D)
-///     D = theta h C + beta h2 K,   Q = beta h2 K - (1 - theta) h C
-/// The solver visits one point after the other. Let b = u_n - a p_n0 be its velocity without its own impulse. A visit
-/// solves (2) within the limits of the contact:
-///     normal      p_n = max(0, min(p, p_A, p_w, h F_Y)),   p by (2) or (7)                      (3)
-///     tangential  p_s = f_s p_s0 + B_s - M_s (u_s + a_ns (p_n - p_n0)), shortened to mu p_n        (4)
-/// A spring returns at most its account A, the work that the bodies have done on it as far as it is neither returned
-/// nor dissipated:
-///     energy      p (v + v') / 2 <= A,   p_A (v + b + a p_A) / 2 = A_n                             (5)
+/// Equations (1) to (7): docs/theory.md, section 5.
+///
 /// Of the tangential impulses that (5) admits p_s is the closest to (4). A visit is then a step along the gradient of a
-/// convex function and projections on convex sets, which repeated visits lead to a fixed point. (Shortened in its own
-/// direction, p_s may alternate between two values for ever where the responses of the two tangents differ.)
-/// A new point has none: it never leaves faster than it came, however coarse the step. A point in an impact
-/// (impact.hpp) separates at most with the velocity w,
-///     impact      p_w = (w - b + s (w - u_n0)) / (a (1 + s))                                    (6)
-/// with the small softness s: exact for a point alone, b = u_n0; several points of a pair, whose bounds contradict each
-/// other, share the impulse.
-/// After the sweeps, a point that acts alone in its pair and separates more slowly than w gets the velocity w, as far
-/// as (5) admits: the step has not resolved its spring. With several points w is a bound only: their dashpots add up,
-/// and dissipate more than (2) of impact.hpp.
-/// A spring that hardens has the force F(n) = F_1(n) + c n^q with a linear F_1, and the dashpot C(n) ~ n^((q-1)/2). A
-/// point that closes by d = -h v' - 0.1 n_0, v' = b + a p, adds the difference between the force at the next placement
-/// and its linear extrapolation, and that of the dashpot for the part of d that the velocity v before the step does not
-/// explain. Otherwise a light member that is struck would move through its contact within a step:
-///     hardening   p = (2) + (1 - a M_n) (beta_d h (F(n_0 + d) - F(n_0) - K_n d) + (C(n_0 + (d + h v) / 2) - C_n) d)
-///                                                                                           (7)
-/// with d > 0, h v <= 0, d + h v >= 0, d at most the overlap left until the force is constant, and beta_d of the
-/// hardening part's secant stiffness.
+/// convex function, followed by projections on convex sets: repeated visits lead to a fixed point. (An impulse that is
+/// shortened in its own direction may alternate between two values for ever where the responses of the two tangents
+/// differ.)
+/// Pairs with several points do not get the velocity w of an impact after the sweeps: their dashpots add up and
+/// dissipate more than (2) of impact.hpp.
+/// The closing displacement d of (7) is at most the overlap left until the force is constant.
 ///
 /// Convergence. In (3) p_n is a continuous function of b that does not increase, with slopes between -1/a and 0
 /// (tests/kernel/visit_test.cpp). So p_n and v' = b + a p_n are related by a monotone function, v' falls while p_n

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Prepare phase of contact points: coefficients of equations (2) to (8) of contact_solver.hpp, whose glossary explains
-/// the symbols.
+/// Prepare phase of contact points: coefficients of equations (2) to (7) of docs/theory.md, section 5, and (8) of
+/// contact_solver.hpp, whose glossary explains the symbols.
 #pragma once
 #include "contact_point.hpp"
 #include "kinematics.hpp"

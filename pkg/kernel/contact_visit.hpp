@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// One Gauss-Seidel visit of a contact point: (2) to (8) of contact_solver.hpp.
+/// One Gauss-Seidel visit of a contact point: equations (2) to (7) of docs/theory.md, section 5, and (8) of
+/// contact_solver.hpp.
 #pragma once
 #include "constants.hpp"
 #include "contact_point.hpp"

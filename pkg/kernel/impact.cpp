@@ -42,7 +42,7 @@ namespace {
 double restitution(double ratio)
 {
 	assert(ratio >= 0);
-	// acos(D) / sqrt(1 - D^2) = 2 / (1 + D) arctan(t) / t, t^2 = (1 - D) / (1 + D)
+	// acos(D) / sqrt(1 - D^2) = 2 / (1 + D) arctan(t) / t, t^2 = (1 - D) / (1 + D), D: zeta_c
 	const double over = 1 / (1 + ratio);
 	return exponential(-4 * ratio * over * arctangentShare((1 - ratio) * over));
 }
@@ -62,8 +62,8 @@ double PowerSpring::duration(double mass, double speed) const
 	return 2 * quarterPeriod(s) * largest / speed;
 }
 
-/// (3) for s = n/d and y = (v/v(d))^2, dy/ds = -(q + 1) min(1, s^q + 2 D s^((q-1)/2) y^1/2), in the variable z = s^1/4, of
-/// which Hertz's dashpot is a smooth function, by the classical Runge-Kutta method.
+/// (3) for s = n/d and y = (v/v(d))^2, dy/ds = -(q + 1) min(1, s^q + 2 zeta_c s^((q-1)/2) y^1/2), in the variable
+/// z = s^1/4, of which Hertz's dashpot is a smooth function, by the classical Runge-Kutta method.
 double reboundAtStrength(double ratio, double q, double speed, double& rest)
 {
 	assert(ratio >= 0 && q >= 1 && speed > 0);

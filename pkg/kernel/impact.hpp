@@ -2,15 +2,16 @@
 /// Impact of a contact point: from the touch of the surfaces to their separation, in many steps or in a fraction of
 /// one.
 ///
-/// A point that acts alone, with the spring F = c n^q and the dashpot C = 2 ratio sqrt(m dF/dn), moves as n'' = -a
+/// A point that acts alone, with the spring F = c n^q and the dashpot C = 2 zeta sqrt(m dF/dn), moves as n'' = -a
 /// max(0, F + C n'). In the variables x = 2/(q+1) n^((q+1)/2) and dt' = n^((q-1)/2) dt this is a linear oscillator with
 /// the ratio of critical damping
-///     D = ratio sqrt(a m 2q/(q+1))                                                              (1)
+///     zeta_c = zeta sqrt(a m 2q/(q+1))                                                          (1)
 /// Its velocity n' = dx/dt' is largest where the force ends:
-///     restitution e = exp(-2 D acos(D) / sqrt(1 - D^2)),  D > 1: exp(-2 D acosh(D) / sqrt(D^2 - 1))     (2)
-/// at any speed (Schwager and Poeschel, Granular Matter 9 (2007), 465; Antypov and Elliott, EPL 94 (2011), 50004).
+///     e_r = exp(-2 zeta_c acos(zeta_c) / sqrt(1 - zeta_c^2)),   zeta_c > 1: acosh, zeta_c^2 - 1         (2)
+/// is the restitution at any speed (Schwager and Poeschel, Granular Matter 9 (2007), 465; Antypov and Elliott, EPL 94
+/// (2011), 50004).
 /// An impact of a few steps, or of a fraction of one, is not resolved by them: the solver bounds its velocity of
-/// separation by w = e times the touch speed (contact_solver.hpp (6)), for its duration and as long as the bound acts.
+/// separation by w = e_r times the touch speed ((6) of docs/theory.md), for its duration and as long as the bound acts.
 /// The steps resolve longer ones.
 /// A contact that is pressed together by more than the touch speed within the duration, or within a longer step, is a
 /// loaded one, without a bound.
@@ -18,8 +19,8 @@
 /// Symbols: a inverse effective mass [1/kg], m equivalent mass (Eq. 43) [kg], n overlap [m], q power of the law (Hertz:
 /// 1.5) [-].
 /// A point with the strength F_Y has the total force min(F_Y, F + C n'). The unloading from rest at the overlap d ends
-/// with e^1/2 times the velocity v(d) = (2 a U(d))^1/2. So does an impact that is crushed, d: the elastic overlap at the
-/// strength. Otherwise d is that at which the loading ends. Both follow from one quadrature:
+/// with e_r^1/2 times the velocity v(d) = (2 a U(d))^1/2. So does an impact that is crushed, d: the elastic overlap at
+/// the strength. Otherwise d is that at which the loading ends. Both follow from one quadrature:
 ///     d(v^2)/dn = -2 a min(F_Y, F + C v),   v = n'                                              (3)
 #pragma once
 #include "bearing_strength.hpp"
@@ -49,7 +50,7 @@ struct ImpactState {
 	}
 };
 
-/// Restitution e (2). ratio: D >= 0 [-].
+/// Restitution e_r (2). ratio: zeta_c >= 0 [-].
 double restitution(double ratio);
 
 /// Normal spring c n^q of a point at some overlap.
@@ -74,8 +75,8 @@ struct Touch {
 	double crushed = 0; ///< plastic overlap [m]
 };
 
-/// Velocity after an impact (3) over v(d) at the strength, d, before crushing begins. ratio: D; q: power; speed: of
-/// closing, over v(d); rest: part of its energy that crushes beyond d, output. [-]
+/// Velocity after an impact (3) over v(d) at the strength, d, before crushing begins. ratio: zeta_c; q: power; speed:
+/// of closing, over v(d); rest: part of its energy that crushes beyond d, output. [-]
 double reboundAtStrength(double ratio, double q, double speed, double& rest);
 
 /// Impact of a point whose surfaces have touched in the last step. h: step [s].

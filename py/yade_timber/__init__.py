@@ -8,7 +8,7 @@
 bodies      box, polyhedron, timber, snow, set_velocity
 joints      connect, SlipLaw
 engines     engines, stable_dt
-queries     contacts, energy, energy_residual, export_scene
+queries     contacts, energy, energy_residual, export_scene, record
 session     guard
 classes     the compiled ones: TimberMat, HouseMonitor, ...
 
@@ -20,7 +20,7 @@ from . import host as _host
 __version__ = "0.2.0"
 
 IN_YADE = ("SlipLaw", "box", "connect", "contacts", "energy", "energy_residual", "engines", "export_scene", "guard",
-           "polyhedron", "set_velocity", "snow", "stable_dt", "timber")
+           "polyhedron", "record", "set_velocity", "snow", "stable_dt", "timber")
 """Names that need a YADE session. There is no __all__: help() would print each of these functions in full."""
 _class_names: list[str] = []
 
@@ -44,6 +44,7 @@ if _host.running():
     from .scene.joints import SlipLaw, connect  # noqa: E402,F401
     from .scene.protection import guard  # noqa: E402,F401
     from .scene.queries import contacts, energy, energy_residual, stable_dt  # noqa: E402,F401
+    from .scene.record import record  # noqa: E402,F401
 
 
 def __dir__():

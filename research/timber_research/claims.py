@@ -15,15 +15,16 @@ to one side
 import math
 from dataclasses import dataclass
 
+from timber_houses.recording.verdict import DAMAGE, SAFETY
 from timber_houses.text.english import direction_name, ratio
 
-SWAY = 1 / 120
+SWAY = DAMAGE.drift
 """Smallest sway that counts: Japanese practice assumes damage of a timber house beyond this drift. [-]"""
-GREAT_SWAY = 1 / 30
+GREAT_SWAY = SAFETY.drift
 """Great sway: the safety limit of Japanese practice for timber houses. Below it in both directions a house is 'very
 stable'. [-]
 """
-STILL = 1 / 120
+STILL = DAMAGE.drift
 """A house stands still if no drift reaches this and no spring breaks. [-]"""
 TILT_AFTER_ONSET = (-1.0, 3.0)
 """E1: time from the onset of strong shaking to the start of the tilt. The paper gives whole seconds and figures some

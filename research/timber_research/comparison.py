@@ -2,7 +2,7 @@
 """The claims under several ground motions: in how many of them each holds, and what becomes of each house. Needs no
 YADE.
 """
-from yade_timber.atomic_write import write_text
+from timber_houses.base.atomic_write import write_text
 from timber_houses.base.table import csv_text
 
 from . import report

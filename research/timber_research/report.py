@@ -2,7 +2,7 @@
 """Tables of claims and runs: Markdown for people, CSV and JSON for programs. Needs no YADE."""
 import json
 
-from yade_timber.atomic_write import write_text
+from timber_houses.base.atomic_write import write_text
 from timber_houses.base.table import csv_text
 
 from .claims import RUNS, damage, drift_text, leaning, time_text

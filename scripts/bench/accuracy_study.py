@@ -18,7 +18,7 @@ sys.path[:0] = [str(ROOT / "tests"), str(ROOT / "tests" / "physics")]
 
 from cases import all_cases
 from rows import Row
-from yade_timber.atomic_write import write_text
+from timber_houses.base.atomic_write import write_text
 from timber_houses.base.errors import RunError
 from timber_houses.study.options import Parser, results_folder, run_script
 

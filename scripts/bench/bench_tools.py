@@ -20,7 +20,7 @@ def resident_memory():
 BARE_MEMORY = resident_memory()
 """Resident memory before the package is imported, if this module imports it first: YADE alone [MB]."""
 
-from yade_timber.atomic_write import written_whole
+from timber_houses.base.atomic_write import written_whole
 from timber_houses.study.options import Parser, count, house, results_folder
 
 O = yw.Omega()

@@ -20,7 +20,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
 
 from PIL import Image
 
-from yade_timber.atomic_write import written_whole
+from timber_houses.base.atomic_write import written_whole
 from timber_houses.base.errors import RunError
 from timber_houses.house import build_house, load_house
 from timber_houses.motion import default_motion

@@ -7,7 +7,7 @@ ParaView opens elements.pvd, joints.pvd and contacts.pvd in DIR (default: the fo
 """
 import argparse
 
-from show_common import Parser, errors_in_a_line, frames_path, path
+from show_common import RECORDED, Parser, errors_in_a_line, frames_path, path
 
 from timber_houses.recording import frames
 
@@ -20,7 +20,7 @@ def positive(text):
 
 def arguments():
     parser = Parser(description=__doc__.splitlines()[0])
-    parser.add_argument("run", type=path, metavar="folder", help="folder of a run's results, or its frames.h5")
+    parser.add_argument("run", type=path, metavar="folder", help=RECORDED)
     parser.add_argument("--every", type=positive, default=1, metavar="N",
                         help=f"export every N-th of the {frames.FRAMES_PER_SECOND} frames per second (default 1)")
     parser.add_argument("--out", type=path, help="folder to write to (default: the folder vtk beside the frames)")

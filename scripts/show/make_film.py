@@ -13,7 +13,7 @@ import math
 import shutil
 import time
 
-from show_common import Parser, errors_in_a_line, frames_path, path
+from show_common import RECORDED, Parser, errors_in_a_line, frames_path, path
 
 from timber_houses.pictures import camera, film
 from timber_houses.recording import frames
@@ -55,7 +55,7 @@ def arguments():
     form, instant = film.Format(), number(0, 1e5)
     fewer = "; less for a town, so that it is made in half a minute"
     parser = Parser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("run", type=path, help="folder of a run's results, or its frames.h5")
+    parser.add_argument("run", type=path, help=RECORDED)
     parser.add_argument("--compare", type=path, metavar="RUN", help="a second run, shown at the right")
     parser.add_argument("--view", choices=tuple(camera.CAMERAS), default="space",
                         help="from the east, from the north, or from the north-east above (default)")

@@ -7,7 +7,7 @@
 """
 import argparse
 
-from show_common import Parser, errors_in_a_line, frames_path, path
+from show_common import RECORDED, Parser, errors_in_a_line, frames_path, path
 
 from timber_houses.pictures import player
 from timber_houses.pictures.all_pictures import PLAYER
@@ -16,7 +16,7 @@ from timber_houses.recording import frames
 
 def arguments():
     parser = Parser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("run", type=path, help="folder of a run's results, or its frames.h5")
+    parser.add_argument("run", type=path, help=RECORDED)
     parser.add_argument("other", type=path, nargs="?", help="a second run, for comparison")
     parser.add_argument(
         "--out", type=path,

@@ -37,10 +37,13 @@ def file_name(name):
 
 
 def frames_path(run):
-    """The frames of a run, given as its folder or as the file."""
+    """The frames of what RECORDED says."""
     from timber_houses.recording import frames
 
     return run / frames.NAME if run.is_dir() else run
+
+
+RECORDED = "folder of a run's results, its frames.h5, or a log of yt.record"
 
 
 @contextmanager

@@ -18,7 +18,7 @@ from pathlib import Path
 
 from study_common import SCRIPTS, house_name
 
-from yade_timber.atomic_write import write_text
+from timber_houses.base.atomic_write import write_text
 from timber_houses.base.errors import RunError
 from timber_houses.base.time_step import DEFAULT_DT
 from timber_houses.pictures import all_pictures, report

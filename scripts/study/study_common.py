@@ -14,7 +14,7 @@ import matplotlib.style
 matplotlib.use("Agg")
 matplotlib.style.use("default")  # whatever the matplotlibrc of the user says
 
-from yade_timber.atomic_write import write_text, written_whole
+from timber_houses.base.atomic_write import write_text, written_whole
 from timber_houses.base.errors import RunError
 from timber_houses.base.table import csv_text
 from timber_houses.study.batch import read_table, run_rows, write_runs

@@ -22,7 +22,7 @@ sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a scrip
 
 import yade_timber as yt
 from row_of_blocks import Row, touch_times, wave_speed
-from yade_timber.atomic_write import write_text, written_whole
+from timber_houses.base.atomic_write import write_text, written_whole
 from timber_houses.base.table import csv_text
 from timber_houses.study.options import Parser, positive, results_folder, run_script
 

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-CODE_DRIFT = 1 / 120
-"""[rad]"""
+from timber_houses.house.wall_types import RATED_DRIFT
+
 TEST_END = 1 / 15
 """Drift at which a test without loss of load ends. [rad]"""
 STRAIGHT = 1e-3
@@ -59,7 +59,7 @@ def evaluate(envelope, end=None):
     ultimate = _end(drift, load, top, end)
     area = _area(drift, load, ultimate)
     ultimate_load = stiffness * (ultimate - np.sqrt(ultimate**2 - 2 * area / stiffness))
-    return Evaluation(float(np.interp(CODE_DRIFT, drift, load)), float(yield_load), float(ultimate_load),
+    return Evaluation(float(np.interp(RATED_DRIFT, drift, load)), float(yield_load), float(ultimate_load),
                       float(load[top]), float(drift[top]), float(ultimate), float(ultimate * stiffness / ultimate_load))
 
 

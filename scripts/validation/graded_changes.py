@@ -31,7 +31,7 @@ from shear_model import Storey, response
 from wall_grades import HOUSE, REQUIRED, STRUCTURE, graded_house, listed
 
 from timber_houses.api.result import load_run
-from yade_timber.atomic_write import write_text
+from timber_houses.base.atomic_write import write_text
 from timber_houses.base.errors import RunError
 from timber_houses.base.table import csv_text
 from timber_houses.house import LEVELS, build_house, changed_house, load_house

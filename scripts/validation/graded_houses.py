@@ -34,7 +34,7 @@ from shear_model import LIMIT, first_period, response
 from wall_grades import RULES, STRUCTURE, house_file
 
 from timber_houses.api.result import load_run
-from yade_timber.atomic_write import write_text, written_whole
+from timber_houses.base.atomic_write import write_text, written_whole
 from timber_houses.base.errors import RunError
 from timber_houses.base.table import csv_text
 from timber_houses.house import LEVELS, build_house, load_house

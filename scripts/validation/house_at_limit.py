@@ -17,7 +17,7 @@ sys.path.append(str(SCRIPTS.parent / "py"))  # after the installed package, whic
 from wall_grades import house_file
 
 from timber_houses.api.result import load_run
-from yade_timber.atomic_write import write_text
+from timber_houses.base.atomic_write import write_text
 from timber_houses.base.table import csv_text
 from timber_houses.run.options import RunOptions
 from timber_houses.study.driver import Task, run_missing

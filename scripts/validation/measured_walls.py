@@ -11,6 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from timber_houses.house.wall_types import RATED_DRIFT
+
 HEIGHT = 2.73
 """Of all walls. [m]"""
 
@@ -36,7 +38,7 @@ class Wall:
     source: str
     length: float  # [m]
     tests: tuple
-    code_drift: float = 1 / 120  # drift of the load `code` [rad]
+    code_drift: float = RATED_DRIFT  # drift of the load `code` [rad]
     is_tail_known: bool = True  # ultimate_drift: at 0.8 of the largest load, not only the end of the test
 
     def mean(self, name):
@@ -101,5 +103,5 @@ WALLS = (
          (Test(35.1, largest=41.1), Test(28.5, largest=42.2), Test(36.1, largest=41.8))),
 )
 """Of mud the multiplier is that of the load at 1/150. The load `code` of LVL is the sheet's first one; its drift is
-taken to be 1/120.
+taken to be RATED_DRIFT.
 """

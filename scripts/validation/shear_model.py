@@ -24,12 +24,14 @@ from math import copysign
 import numpy as np
 from scipy.linalg import eigh
 
+from timber_houses.recording.verdict import TILT
+
 STEP = 1e-3
 """[s]"""
 ROCKING_DRIFT = 2e-3
 """Drift at which a column end of 0.12 m has lifted off its far edge: Hertz overlap of its points, 0.08 mm under its
 share of the weight (paper, Eq. 37), twice over the distance of the edges, 0.096 m. [rad]"""
-LIMIT = 0.1
+LIMIT = TILT.drift
 """Drift at which a storey fails and the calculation ends. [rad]"""
 
 

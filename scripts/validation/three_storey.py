@@ -20,7 +20,7 @@ sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a scrip
 
 import timber_houses as th
 from shear_model import Storey, first_period, slip_spring
-from yade_timber.atomic_write import write_text
+from timber_houses.base.atomic_write import write_text
 from timber_houses.base.gravity import mass_of
 from timber_houses.base.table import csv_text
 from timber_houses.house.parser import house_text

@@ -20,8 +20,8 @@ import numpy as np
 import timber_houses as th
 import yade_timber as yt
 from yade import O
-from yade_timber.atomic_write import write_text
 from yade_timber.scene.engines import find_engine
+from timber_houses.base.atomic_write import write_text
 from timber_houses.base.joint_kinds import WALL_KINDS
 from timber_houses.base.table import csv_text
 from timber_houses.scene import scenario

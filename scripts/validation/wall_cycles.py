@@ -20,7 +20,7 @@ import numpy as np
 sys.path.append(str(Path(sys.argv[0]).resolve().parent))  # YADE runs a script without setting __file__
 
 from rack import Rack
-from yade_timber.atomic_write import write_text, written_whole
+from timber_houses.base.atomic_write import write_text, written_whole
 from timber_houses.base.table import csv_text
 from timber_houses.house import load_house
 from timber_houses.study.options import Parser, results_folder, run_script

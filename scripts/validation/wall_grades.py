@@ -9,7 +9,7 @@ label  the quantity of grade 2 (1.25) or 3 (1.5) of the housing performance labe
 """
 from house_storeys import AXES, wall_joints
 
-from yade_timber.atomic_write import write_text
+from timber_houses.base.atomic_write import write_text
 from timber_houses.house import build_house, changed_house, load_house
 from timber_houses.house.loads import bay_length
 from timber_houses.house.parser import house_text

@@ -22,7 +22,7 @@ sys.path.append(str(Path(sys.argv[0]).resolve().parent))  # YADE runs a script w
 from evaluation import evaluate
 from measured_walls import HEIGHT, WALLS
 from rack import Rack, envelope
-from yade_timber.atomic_write import write_text, written_whole
+from timber_houses.base.atomic_write import write_text, written_whole
 from timber_houses.base.table import csv_text
 from timber_houses.study.options import Parser, results_folder, run_script
 

@@ -20,7 +20,7 @@ RESEARCH = "timber_research"
 """Package beside the installed ones."""
 YADE = {"yade"}
 """YADE itself, and all of the plugin but WITHOUT_YADE."""
-WITHOUT_YADE = {"yade_timber.atomic_write", "yade_timber.energy_terms", "yade_timber.joint_values"}
+WITHOUT_YADE = {"yade_timber.energy_terms", "yade_timber.log"}
 NOT_OF_THE_PLUGIN = {"timber_houses", "h5py", "matplotlib", "yaml", "scipy"}
 ALL = {"house", "motion", "scene", "run", "recording", "text", "pictures", "study", "api"}
 FORBIDDEN = {
@@ -187,7 +187,7 @@ def test_an_import_of_research_is_found(tmp_path, line):
         ("import yade.wrapper as yw", "yade"),
         ("from yade import O", "yade"),
         ("from yade_timber.plugin import compiled", "yade"),
-        ("from yade_timber import atomic_write, box", "yade"),
+        ("from yade_timber import energy_terms, box", "yade"),
         ("from ..scene import engines", "scene"),
         ("from ..run.options import RunOptions", "run"),
         ("import timber_houses.study.driver", "study"),
@@ -206,5 +206,5 @@ def test_imports_within_the_flow_are_allowed(tmp_path):
     (tmp_path / "pictures").mkdir()
     (tmp_path / "pictures" / "module.py").write_text(
         "from ..recording import frames\nfrom . import views\nfrom ..base.colors import KINDS\n"
-        "from yade_timber.atomic_write import write_text\nimport numpy\n")
+        "from yade_timber.energy_terms import SUPPLIED\nimport numpy\n")
     assert offences(tmp_path) == []

@@ -106,7 +106,7 @@ def package(tmp_path_factory):
         ("study/driver.py", False),
         ("text/english.py", False),
         ("plugin/scene/engines.py", True),
-        ("plugin/joint_values.py", True),
+        ("plugin/energy_terms.py", True),
         ("scene/scenario.py", True),
         ("run/runner.py", True),
         ("run/summary.py", True),
@@ -184,7 +184,7 @@ def test_a_writer_that_fails_leaves_the_earlier_checkpoint(tmp_path, monkeypatch
     def full(*_):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("yade_timber.atomic_write.shutil.copyfileobj", full)
+    monkeypatch.setattr("timber_houses.base.atomic_write.shutil.copyfileobj", full)
     with pytest.raises(OSError, match="No space"):
         checkpoint.save(tmp_path / "a.yade", {"name": "x"}, {})
     assert [path.name for path in tmp_path.iterdir()] == ["a.yade"] and (tmp_path / "a.yade").read_bytes() == before

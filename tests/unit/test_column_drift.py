@@ -8,7 +8,7 @@ import yade_timber as yt
 from summaries import sample_summary
 from yade import O
 from yade.minieigenHP import Quaternion
-from timber_houses.recording.verdict import REPAIRABLE, UNSAFE, Structure
+from timber_houses.recording.verdict import FALLEN_ANGLE, REPAIRABLE, UNSAFE, Structure
 from timber_houses.text import english, lines
 
 EAST, NORTH = (0, 1, 0), (-1, 0, 0)
@@ -22,7 +22,7 @@ def monitored(*leans, joined=True):
     floor = O.bodies.append(yt.box((9, 9, 0.2), (0, 0, 3.5), fixed=True))
     columns = [O.bodies.append(yt.box((0.1, 0.1, 2.7), (k, 0, 1.4), fixed=True)) for k in range(len(leans))]
     monitor = yw.HouseMonitor(interval=0, bodies=[floor], levels=[1], heights=[2.7], columnBodies=columns,
-                              columnStoreys=[1] * len(columns))
+                              columnStoreys=[1] * len(columns), fallenAngle=FALLEN_ANGLE)
     O.engines = yt.engines(monitor=monitor)
     for column in columns[:None if joined else -1]:
         yt.connect(ground, column, [(O.bodies[column].state.pos[0], 0, 0)])

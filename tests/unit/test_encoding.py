@@ -11,7 +11,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from yade_timber.atomic_write import write_text
+from timber_houses.base.atomic_write import write_text
 from timber_houses.base.table import csv_text
 from timber_houses.house import HouseError, load_house, load_town
 

@@ -9,11 +9,11 @@ import sys
 from pathlib import Path
 
 import pytest
+from timber_houses.base.atomic_write import remove, write_text, written_whole
 from timber_houses.base.files import make_folder, remove_parts, written_from_memory
 from timber_houses.base.lock import is_locked, locked
 from timber_houses.base.processors import processors, quota
 from timber_houses.base.table import csv_text, read_csv
-from yade_timber.atomic_write import remove, write_text, written_whole
 
 
 def names(folder):
@@ -109,7 +109,7 @@ def test_what_cannot_be_written(tmp_path):
 def test_standard_output(tmp_path, path):
     """What it holds already, and what follows, stays."""
     target = path.format(file=tmp_path / "log")
-    script = ("print('before'); from yade_timber.atomic_write import write_text; "
+    script = ("print('before'); from timber_houses.base.atomic_write import write_text; "
               f"write_text({target!r}, 'x\\n'); print('after')")
     with open(tmp_path / "log", "w") as log:
         subprocess.run([sys.executable, "-c", script], stdout=log, check=True)

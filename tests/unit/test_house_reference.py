@@ -16,7 +16,7 @@ from timber_houses.house.schema import REQUIRED, Choice, Flag, ListOf, MapOf, Nu
 
 PAGE = ROOT / "docs" / "house_files.md"
 HEADING = re.compile(r"^#+ .*`([^`]*)`$")
-ROW = re.compile(r"^\| `(\w+)` \| (.*?) \| (.*?) \| (.+) \|$")
+ROW = re.compile(r"^\| `(?:([\w.\[\]]+)\.)?(\w+)` \| (.*?) \| (.*?) \| (.+) \|$")
 
 
 def tables(field, path=""):
@@ -87,15 +87,18 @@ def forms(path):
 
 
 def page_rows():
-    """{path: {key: (value, default)}} of the page; a form has the keys of all headings that name it."""
+    """{path: {key: (value, default)}} of the page; a form has the keys of all headings that name it. A key `a.b` of a
+    table is the key `b` of its table `a`.
+    """
     rows, here = {}, []
     for line in PAGE.read_text().splitlines():
         heading, row = HEADING.match(line), ROW.match(line)
         if heading:
-            here = [rows.setdefault(path, {}) for path in forms(heading[1].replace("the file", ""))]
-        for table in here if row else ():
-            assert row[1] not in table, f"{row[1]} stands twice"
-            table[row[1]] = (row[2], row[3])
+            here = forms(heading[1].replace("the file", ""))
+        for path in here if row else ():
+            table = rows.setdefault(f"{path}.{row[1]}".lstrip(".") if row[1] else path, {})
+            assert row[2] not in table, f"{row[2]} stands twice"
+            table[row[2]] = (row[3], row[4])
     return rows
 
 

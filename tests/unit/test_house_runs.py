@@ -104,19 +104,19 @@ def test_the_papers_houses_take_the_largest_step(house):
 
 
 def test_drift_refers_to_the_height_of_its_own_storey():
-    """Two levels moved by 0.1 and 0.3 m over storeys of 2 and 4 m; a level that comes down by half its storey has
-    collapsed.
-    """
+    """Two levels moved by 0.1 and 0.3 m over storeys of 2 and 4 m; the second one comes down by half its storey."""
     O.reset()
     ids = [O.bodies.append(yt.box((1, 1, 1), (0, 0, 5 * k), fixed=True)) for k in (1, 2)]
-    monitor = yt.HouseMonitor(bodies=ids, levels=[1, 2], heights=[2.0, 4.0])
-    O.engines = [monitor]
+    monitor = yt.HouseMonitor(bodies=ids, levels=[1, 2], heights=[2.0, 4.0], tiltDrift=0.07, fallDrop=0.5)
+    unlimited = yt.HouseMonitor(bodies=ids, levels=[1, 2], heights=[2.0, 4.0])
+    O.engines = [monitor, unlimited]
     for body, shift in zip(ids, ((0.1, 0, -0.9), (0, 0.3, -2.1))):
         O.bodies[body].state.pos += shift
     O.dt = 1e-3
     O.step()
     assert list(monitor.peak) == pytest.approx([0, 0.05, 0.075, 0.025])
-    assert monitor.collapseTime == 0
+    assert (monitor.collapseTime, monitor.tiltTime, monitor.tiltDirection) == (0, 0, "ns")
+    assert np.isnan([unlimited.collapseTime, unlimited.tiltTime]).all()  # it knows no limits of its own
     assert monitor.columns()[:4] == ["time [s]", "drift_ns1 [-]", "drift_ew1 [-]", "drop1 [m]"]
     with pytest.raises(ValueError, match="HouseMonitor.heights"):
         yt.HouseMonitor(heights=[2.0, 0.0])
@@ -128,7 +128,7 @@ def test_a_level_moves_with_its_centre_of_mass():
     """
     O.reset()
     ids = [O.bodies.append(yt.box((size, size, size), (0, 0, 2 * size), fixed=True)) for size in (1.0, 0.1)]
-    monitor = yt.HouseMonitor(bodies=ids, levels=[1, 1], heights=[2.0])
+    monitor = yt.HouseMonitor(bodies=ids, levels=[1, 1], heights=[2.0], fallDrop=0.5)
     O.engines, O.dt = [monitor], 1e-3
     O.bodies[ids[0]].state.pos += (0.02, 0, 0)
     O.bodies[ids[1]].state.pos += (3, 0, -3)

@@ -56,7 +56,7 @@ REFUSED = [
     ("GroundMotionEngine", "acceleration", [Vector3(0, NAN, 0)]),
     ("HouseMonitor", "heights", [2.73, -1.0]),
     ("HouseMonitor", "interval", -0.01),
-    ("HouseMonitor", "tiltDrift", NAN),
+    *[("HouseMonitor", limit, value) for limit in ("tiltDrift", "fallDrop", "fallenAngle") for value in (NAN, 0.0)],
     ("HouseMonitor", "levels", [1, -1]),
     ("HouseMonitor", "levels", [1, 1, 1]),
     ("HouseMonitor", "bodies", [1]),

@@ -33,6 +33,7 @@ CALLS = {"save": lambda scene: O.save(scene.path, quiet=True), "saveTmp": lambda
          "energy": lambda scene: yt.energy(), "energy_residual": lambda scene: yt.energy_residual(),
          "stable_dt": lambda scene: yt.stable_dt(), "natural_modes": lambda scene: natural_modes(),
          "export_scene": lambda scene: yt.export_scene(scene.path),
+         "record": lambda scene: yt.record(scene.path).take(),
          "check": lambda scene: scene[yw.HealthCheck].check(),
          "set_velocity": lambda scene: yt.set_velocity(1, (0, 0, 0)),
          "packed_contacts": lambda scene: compiled.packed_contacts(),

@@ -217,7 +217,7 @@ def test_pictures_of_a_run_that_has_not_ended(tmp_path, coarse):
     """No curves, no sentence; and the pictures may go elsewhere."""
     recorded.save(tmp_path / recorded.NAME, frames(ended=False, shaken=False))
     (tmp_path / "out").mkdir()
-    written = all_pictures.write(tmp_path / "out", tmp_path)
+    written = all_pictures.write(tmp_path / "out", tmp_path / recorded.NAME)
     assert {path.name for path in written} == {"end_state.png", "front.png", "side.png", "player.html"}
 
 

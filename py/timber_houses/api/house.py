@@ -3,8 +3,7 @@
 from functools import cached_property
 from pathlib import Path
 
-from yade_timber.atomic_write import write_text
-
+from ..base.atomic_write import write_text
 from ..base.errors import os_errors
 from ..house import build_house, changed_house, free_bays, load_house
 from ..house.parser import house_text

@@ -146,7 +146,7 @@ class RunResult:
         folder = self.folder if folder is None else Path(folder)
         with os_errors(lambda fault: f"{folder}: the pictures cannot be written: {fault}"):
             make_folder(folder)
-            return all_pictures.write(folder, self.folder)
+            return all_pictures.write(folder, self.folder / frames.NAME)
 
 
 def load_run(folder):

@@ -57,11 +57,11 @@ def _launch(read, argv):
             from ..run.runner import Interrupted
     except KeyboardInterrupt:
         _leave("stopped by SIGINT before the run", 128 + signal.SIGINT)
-    if not ports.has_prompt():
-        ports.close_servers()
     argv, options = sys.argv if argv is None else argv, None
     try:
         with deferred_interrupt():
+            if not ports.has_prompt():
+                ports.close_servers()
             options = read(cli, argv)
             scenario = planned(options)
         return _run(session, ports.has_prompt(), Path(argv[0]), scenario, options)

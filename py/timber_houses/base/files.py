@@ -6,7 +6,7 @@ import shutil
 from contextlib import contextmanager
 from pathlib import Path
 
-from yade_timber.atomic_write import PART, written_whole
+from .atomic_write import PART, written_whole
 
 
 @contextmanager

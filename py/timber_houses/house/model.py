@@ -5,7 +5,6 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
-from yade_timber.joint_values import JointValues
 
 from ..base.joint_kinds import WALL_COLUMN
 from .errors import HouseError
@@ -62,6 +61,19 @@ class Element:
 
 
 @dataclass(frozen=True)
+class WallCycles:
+    """Law 'wall' of a spring: its cycles (docs/theory.md, section 4)."""
+
+    friction_force: float  # [N] at zero stretch after yielding
+    reload_target: float = 1.0  # stretch at which reloading meets the envelope, over the largest so far
+    reload_share: float = 0.0  # of the slack, from which it reloads, unless reload_stiffness says otherwise
+    pinched_stiffness: float = 0.0  # [N/m] within the slack
+    reload_stiffness: float = 0.0  # [N/m] k0: stiffness of reloading k0 (reload_stretch / target)^reload_power
+    reload_stretch: float = 0.0  # [m]
+    reload_power: float = 0.0
+
+
+@dataclass(frozen=True)
 class Sheet:
     """A wall sheet. low, high: the columns of its bay (names); type: key of wall_types; opening: key of walls.OPENINGS;
     multiplier, quasi_multiplier: of its bearing wall, of its panels, as the rules count them [-]"""
@@ -75,7 +87,7 @@ class Sheet:
 
 
 @dataclass(eq=False, kw_only=True)
-class JointSpec(JointValues):
+class JointSpec:
     """Joint of elements `a` and `b`: springs at the corners of their contact area (paper, 2.4), or one.
 
     kind: 'column_beam', 'brace_beam', 'brace_column', 'floor_beam', 'roof_beam', 'roof_roof', ...; label: name of a
@@ -84,6 +96,24 @@ class JointSpec(JointValues):
 
     a: str
     b: str
+    points: np.ndarray   # (n, 3) spring points [m], world frame
+    normal: np.ndarray   # (3,) from a to b; of a wall, along which its spring acts
+    kind: str
+    kn: float            # [N/m] normal stiffness, of each spring or of the joint, see `per`
+    ks: float            # [N/m] tangential stiffness, likewise; 0: the springs act along the normal only
+    strength: float      # [N] P_max, with law 'slip' the yield force, likewise; inf: unbreakable
+    per: str             # 'spring': values of each spring; 'joint': of the joint as a whole
+    law: str = "brittle"  # or 'slip', 'wall'
+    damping_ratio: float = 0.0  # of the critical damping of the joined masses
+    damping_time: float = 0.0  # [s] of dashpots that damp the sway of the house, over the stiffness
+    initial_damping: bool = False  # dashpots keep the initial stiffness of yielded springs
+    friction_share: float | None = None     # law 'slip': share of the yield force that acts in both directions
+    softening_stretch: float | None = None  # [m] law 'slip': stretch from which the strength falls
+    ultimate_stretch: float | None = None   # [m] law 'slip': stretch at which no strength is left
+    envelope: tuple = ()  # laws 'slip', 'wall': (stretch [m], force [N]) of the first loading
+    cycles: WallCycles | None = None  # law 'wall'
+    broken: bool = False  # damaged before the run starts
+    label: str = ""
     area: float = 0.0    # contact area [m2]
     type: str = ""       # key of joint_types
     storey: int = 0

@@ -58,7 +58,7 @@ RELOAD_TARGET = 1.1
 
 @dataclass(frozen=True)
 class Cycles:
-    """Of a wall type, per metre of wall; names as those of WallCycles (yade_timber/joint_values.py)."""
+    """Of a wall type, per metre of wall; names as those of WallCycles (house/model.py)."""
 
     friction_force: float  # [N/m]
     reload_share: float = 0.0

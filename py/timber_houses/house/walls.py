@@ -13,13 +13,12 @@ stiffness across their plane.
 from dataclasses import dataclass
 
 import numpy as np
-from yade_timber.joint_values import WallCycles
 
 from ..base.joint_kinds import WALL_BEAM, WALL_COLUMN
 from .errors import HouseError
 from .loads import bay_length
 from .members import column_plan, line_name, nodes_on_line, require_column
-from .model import JointSpec, Sheet
+from .model import JointSpec, Sheet, WallCycles
 from .structure import ACROSS
 from .wall_types import cycles, envelope, multiplier, quasi_multiplier
 

@@ -2,8 +2,7 @@
 """Writes a ground motion as the plain CSV that `read_motion` reads."""
 from pathlib import Path
 
-from yade_timber.atomic_write import write_text
-
+from ..base.atomic_write import write_text
 from .record import GAL, RecordError
 
 DECIMALS = 2

@@ -15,8 +15,8 @@ NAMES = [f"{END}.png",
 """Files that `write` makes."""
 
 
-def write(folder, results=None, pdf=False):
-    """Write the pictures of a run into a folder; returns their paths. results: folder of the frames; pdf: PDFs, too.
+def write(folder, path=None, pdf=False):
+    """Write the pictures of a run into a folder; returns their paths. path: of the frames; pdf: PDFs, too.
 
     Without OpenGL those that need none are written, with a note. Raises RunError when the frames cannot be read,
     OSError when a picture cannot be written.
@@ -24,7 +24,7 @@ def write(folder, results=None, pdf=False):
     from . import figures, player, sheets, town_page
     from .renderer import NoOpenGL
 
-    path, endings = (results or folder) / frames.NAME, ("png", "pdf") if pdf else ("png",)
+    path, endings = path or folder / frames.NAME, ("png", "pdf") if pdf else ("png",)
     recorded = frames.load(path)
     if isinstance(recorded.summary, TownSummary):
         return [*figures.save(town_page.figure(recorded), (folder / MAP).with_suffix("")),

@@ -9,8 +9,8 @@ from matplotlib.artist import Artist
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
-from yade_timber.atomic_write import written_whole
 
+from ..base.atomic_write import written_whole
 from ..text.english import LONGEST_TEXT, cut_line
 from . import fonts
 from .style import default_style

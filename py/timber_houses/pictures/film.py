@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from PIL import Image
-from yade_timber.atomic_write import written_whole
 
+from ..base.atomic_write import written_whole
 from ..base.errors import RunError
 from ..recording.summary import TownSummary, collapse_time
 from . import camera

@@ -4,8 +4,8 @@ import base64
 import io
 
 import numpy as np
-from yade_timber.atomic_write import write_text
 
+from ..base.atomic_write import write_text
 from ..base.html import html
 from ..text import english, japanese
 from . import OWNER, VERDICTS, camera

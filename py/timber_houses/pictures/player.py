@@ -11,13 +11,13 @@ page permits its own script and style, by their hashes, and nothing else.
 import base64
 import hashlib
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 from matplotlib.colors import to_hex
-from yade_timber.atomic_write import write_text
+from yade_timber.log import flat_shapes
 
 from ..base import colors
+from ..base.atomic_write import write_text
 from ..base.errors import RunError
 from ..base.html import DATA, html
 from ..recording import frames, peaks
@@ -91,7 +91,7 @@ def info(run, largest):
     return {
         "title": plain(run.title),
         "result": (plain(english.sentence(run.summary)) if run.summary
-                   else f"Not ended yet: the first {run.time[-1]:.1f} s"),
+                   else f"{'Not ended yet: the' if run.scenario else 'The'} first {run.time[-1]:.1f} s"),
         "japanese": ({"title": plain(japanese.title(run.summary)), "result": plain(japanese.result(run.summary)),
                       "origin": plain(provenance(run, japanese))} if run.summary else None),
         "origin": plain(provenance(run)),
@@ -140,7 +140,9 @@ def feet(run):
 
 def breaks(run):
     """[{joint, time [s], cause, force [N], springs}] of each broken joint: the first break, and the number of all."""
-    firsts, table = {}, run.breaks or {"joint": []}
+    if run.breaks is None:
+        return breaks_in_frames(run)
+    firsts, table = {}, run.breaks
     for number, joint in enumerate(map(int, table["joint"])):
         if 0 <= joint < len(run.joints.name):
             first = {"joint": joint, "time": float(table["time"][number]), "cause": plain(table["cause"][number]),
@@ -149,8 +151,15 @@ def breaks(run):
     return list(firsts.values())
 
 
+def breaks_in_frames(run):
+    """The same of a run without a table of breaks, to the frame and without cause and force."""
+    broken = np.where(run.joints.damaged, 0, run.broken)
+    return [{"joint": joint, "time": float(run.time[np.argmax(broken[:, joint] > 0)]), "cause": "broken", "force": 0.0,
+             "springs": int(broken[-1, joint])} for joint in map(int, np.flatnonzero(broken.any(0)))]
+
+
 def main_event(run):
-    """Time around which the page plays slowly [s]: collapse, drift of 1/10, first fall, largest drift; else None."""
+    """Time around which the page plays slowly [s]: collapse, tilt, first fall, largest drift; else None."""
     return next((float(time) for time, reason in named(run) if reason not in (STRONGEST, FIRST_DAMAGE)), None)
 
 
@@ -191,17 +200,15 @@ def passed_levels(run):
 
 def arrays(run):
     """{name: (values, step)} for the page; a row is a time, vertex, face, joint or sample."""
-    shapes = {name: (values, 1e-4 if name == "vertices" else 1) for name, values in frames.shapes(run.elements).items()}
+    shapes = {name: (values, 1e-4 if name == "vertices" else 1)
+              for name, values in flat_shapes(run.elements.vertices, run.elements.faces).items()}
     return {**shapes, **sheathing(run), **joints(run), **series(run), **curves(run)}
 
 
 def sheathing(run):
     """Shapes of the plates of wall sheets, as those of elements."""
     shown = plates(run)
-    if not shown:
-        return {}
-    shaped = frames.shapes(SimpleNamespace(vertices=[plate.vertices for plate in shown],
-                                           faces=[plate.faces for plate in shown]))
+    shaped = flat_shapes([plate.vertices for plate in shown], [plate.faces for plate in shown]) if shown else {}
     return {f"plate_{name}": (values, 1e-4 if name == "vertices" else 1) for name, values in shaped.items()}
 
 

@@ -22,9 +22,9 @@ def parts(frames, language=english):
 
 
 def shaking(frames, words):
-    """Record, factor, PGA and intensity of the motion as applied."""
+    """Record, factor, PGA and intensity of the motion as applied; of a user's scene it is unknown."""
     if frames.motion is None:
-        return words["none"]
+        return words["none"] if frames.scenario else ""
     applied = GroundMotion(frames.motion.dt, frames.motion.acceleration)
     record = frames.summary and frames.summary.record
     source = f"{words['record']} {record.source}" if record and record.source else words["motion"]

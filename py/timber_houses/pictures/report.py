@@ -10,8 +10,8 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
-from yade_timber.atomic_write import write_text, written_whole
 
+from ..base.atomic_write import write_text, written_whole
 from ..base.errors import RunError
 from ..base.gravity import weight_of
 from ..base.html import html

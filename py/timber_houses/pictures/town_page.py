@@ -2,8 +2,8 @@
 """A town by verdicts: a map with the names of the lots as picture and page, which leads to the pages for the owners."""
 import numpy as np
 from matplotlib.patches import Patch, Polygon
-from yade_timber.atomic_write import write_text
 
+from ..base.atomic_write import write_text
 from ..base.html import html
 from ..text import english, japanese
 from . import OWNER, PAGE, VERDICTS

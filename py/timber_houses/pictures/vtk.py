@@ -13,11 +13,12 @@ contacts.pvd  contact points; point data: force [N] on the second element, eleme
 from xml.etree import ElementTree
 
 import numpy as np
-from yade_timber.atomic_write import write_bytes, write_text
+from yade_timber.log import starts
 
+from ..base.atomic_write import write_bytes, write_text
 from ..base.errors import RunError
 from ..base.files import make_folder
-from ..recording.frames import placed, rotated, starts
+from ..recording.frames import placed, rotated
 from .panels import plates, states
 
 try:

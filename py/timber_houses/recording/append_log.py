@@ -2,21 +2,16 @@
 """A file to which an unfinished run appends its samples at each checkpoint, so that the bytes written grow with the
 result. Needs no YADE.
 
-A record: kind (1 byte), length of the content (uint32), time [s] (float64), CRC-32 of all three and the content
-(uint32), content; little-endian. The first one has the kind RUN and the fingerprint of the run's identity. What follows
-the last complete record, as after a kill, is not read.
+Its records are entries of `yade_timber.log`; the first one has the fingerprint of the run's identity.
 """
 import os
-import struct
 import zlib
 
 import numpy as np
+from yade_timber.log import CHECKSUM, FIELDS, RUN, packed
 
 from ..base.errors import RunError
 from ..base.record_file import open_record, record
-
-FIELDS, CHECKSUM = struct.Struct("<cId"), struct.Struct("<I")
-RUN = b"R"
 
 
 class AppendLog:
@@ -38,9 +33,9 @@ class AppendLog:
         """Append the pending records; returns the file's size. Raises OSError, RunError for what is no regular file."""
         with open_record(self.path, os.O_RDWR | os.O_APPEND | os.O_CREAT) as file:
             if file.seek(0, os.SEEK_END) == 0:
-                file.write(_packed(RUN, 0.0, self.run.encode()))
+                file.write(packed(RUN, 0.0, self.run.encode()))
             for pending in self.pending:
-                file.write(_packed(*pending))
+                file.write(packed(*pending))
             file.flush()
             os.fsync(file.fileno())
             self.pending = []
@@ -58,9 +53,10 @@ class AppendLog:
         return size
 
 
-def _packed(kind, time, content):
-    fields = FIELDS.pack(kind, len(content), time)
-    return fields + CHECKSUM.pack(zlib.crc32(content, zlib.crc32(fields))) + content
+def is_log(path, missing=""):
+    """Whether a file begins as a log. missing: remedy for a missing file. Raises RunError."""
+    with record(path, missing) as file:
+        return file.read(1) == RUN
 
 
 def read(path, run):

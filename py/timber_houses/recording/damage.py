@@ -14,12 +14,10 @@ import numpy as np
 
 from .frames import Elements, Joints, placed, rotated
 from .summary_parts import Broken, Columns, JointCounts
-from .verdict import FALL, Structure
+from .verdict import FALL, FALLEN_ANGLE, Structure
 from .walls import of_walls, sheet_states
 
 SIDES = ("north", "south", "east", "west", "inside")
-FALLEN_ANGLE = math.radians(45)
-"""Inclination beyond which a column has fallen. [rad]"""
 SNOW_DROP = 1.0
 """Snow has fallen when its centre is lower by this, and it is beyond the roof or touches the ground. [m]"""
 TOUCH = 0.05

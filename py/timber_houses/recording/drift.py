@@ -90,7 +90,7 @@ def by_storey(values):
 
 
 def lean_start(history, tilt_time, direction):
-    """Start of the lean that passed 1/10 at `tilt_time` [s]: last sample of another sign, or 0; None without. [s]"""
+    """Start of the lean that tilted a storey at `tilt_time` [s]: last sample of another sign, or 0; else None. [s]"""
     if tilt_time is None:
         return None
     last = int(np.searchsorted(history.time, tilt_time, side="right"))

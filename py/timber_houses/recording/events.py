@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Events of a run: time, kind, facts. Their phrases: text/.
 
-FirstBreak, Tilt (a storey drift passes 1/10), Collapse (an upper floor comes down by half a storey): at the time they
-happen; OwnWeight (damaged before the shaking): in the last frame before it; StructureFallen (another structure than the
-main one), ColumnsLost, SnowFallen: at the end of the frame interval in which they happen. ShakingBegins,
+FirstBreak, Tilt (a storey drift passes verdict.TILT), Collapse (an upper floor comes down by verdict.FALL): at the time
+they happen; OwnWeight (damaged before the shaking): in the last frame before it; StructureFallen (another structure
+than the main one), ColumnsLost, SnowFallen: at the end of the frame interval in which they happen. ShakingBegins,
 StrongestShaking, LevelPassed: of the player, not recorded.
 """
 from dataclasses import dataclass, field
@@ -50,7 +50,7 @@ class StructureFallen:
 
 @dataclass(frozen=True)
 class ColumnsLost:
-    """number: of `total` columns, inclined by more than 45 degrees or without a joint"""
+    """number: of `total` columns, fallen or without a joint"""
 
     number: int
     total: int

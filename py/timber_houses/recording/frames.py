@@ -30,7 +30,7 @@ attributes   format, title (house and loads), scenario, model, version (of the p
 
 Frames are recorded FRAMES_PER_SECOND times per simulated second from t = 0, and at the last step. Until the run has
 ended, the frames and contacts up to its last checkpoint are in frames.log beside the file (frame_log.py), which `load`
-reads, too.
+reads, too. It also reads the log of a user's scene (`yt.record`).
 """
 import io
 import json
@@ -40,12 +40,13 @@ from pathlib import Path
 
 import h5py
 import numpy as np
-from yade_timber.atomic_write import write_bytes
+from yade_timber.log import flat_shapes, starts
 
+from ..base.atomic_write import write_bytes
 from ..base.errors import RunError
 from ..base.json_types import encode
 from ..base.time_step import rest_stride
-from . import append_log, frame_log
+from . import append_log, frame_log, scene_log
 from .history import History
 from .summary import ANEW, Summary, parse
 from .table_file import FAULTS, Group, opened
@@ -184,7 +185,8 @@ class Motion(_ShortRepr):
 class Frames:
     """The file's content. time, position, orientation, load, broken: arrays, or lists during a run.
 
-    summary: Summary, of a town TownSummary; history: History; breaks: dictionary of lists; None before the run's end.
+    scenario: '' of a user's scene; summary: Summary, of a town TownSummary; history: History; breaks: dictionary of
+    lists; None before the run's end.
     """
 
     title: str
@@ -277,10 +279,11 @@ def save(path, frames):
         if frames.summary is not None:
             file.attrs["summary"] = json.dumps(encode(frames.summary))
         plain = {name: values for name, values in vars(frames.elements).items() if name not in ("vertices", "faces")}
-        _save_group(file.create_group("elements"), plain | shapes(frames.elements))
+        shapes = flat_shapes(frames.elements.vertices, frames.elements.faces)
+        _save_group(file.create_group("elements"), plain | shapes)
         _save_group(file.create_group("joints"), vars(frames.joints))
         _save_group(file.create_group("sheets"), vars(frames.sheets))
-        _save_group(file.create_group("frames"), _series(frames))
+        _save_group(file.create_group("frames"), frame_log.series(frames))
         _save_contacts(file.create_group("contacts"), frames.contacts)
         if frames.motion:
             group = file.create_group("motion")
@@ -299,25 +302,6 @@ def _save_group(group, values):
         group.create_dataset(name, data=value, dtype=h5py.string_dtype() if text else None)
 
 
-def _series(frames):
-    """The frames as arrays of the file's types; without frames their shapes hold the numbers of elements and joints."""
-    types = {"time": np.dtype("f8"), **{name: kind for name, (kind, _) in frame_log.frame_type(frames).fields.items()}}
-    return {name: np.asarray(getattr(frames, name), kind.base).reshape(len(frames.time), *kind.shape)
-            for name, kind in types.items()}
-
-
-def starts(lists):
-    """[0, len of the first, len of the first two, ...]."""
-    return np.cumsum([0, *map(len, lists)])
-
-
-def shapes(elements):
-    """{'vertices', 'vertex_start', 'faces', 'face_start', 'element_start'}: arrays of Elements as in /elements."""
-    faces = [face for body in elements.faces for face in body]
-    return {"vertices": np.concatenate(elements.vertices), "vertex_start": starts(elements.vertices),
-            "faces": np.concatenate(faces), "face_start": starts(faces), "element_start": starts(elements.faces)}
-
-
 def _save_contacts(group, contacts):
     shapes = {"pair": ("i4", 2), "position": ("f4", 3), "force": ("f4", 3)}
     flat = {name: np.concatenate([np.empty((0, width), kind), *getattr(contacts, name)])
@@ -331,18 +315,32 @@ def _save_contacts(group, contacts):
 def load(path, missing="frames are recorded unless a run has --no-frames, and not in batches"):
     """Frames of a file. Raises RunError when it cannot be read. missing: remedy when there is no file"""
     try:
-        with opened(path, LAYOUT, missing) as file:
-            if file.attrs.get("format") != FORMAT:
-                raise RunError(f"{path}: no recorded frames ({FORMAT})")
-            loaded = _load(file)
-        if loaded.summary is None:
-            frame_log.add_frames(loaded, append_log.read(Path(path).with_name(frame_log.NAME), loaded.run))
-            vars(loaded).update(_series(loaded))
+        loaded = _load_scene(path) if append_log.is_log(path, missing) else _load_run(path, missing)
         _check_numbers(loaded)
     except RunError:
         raise
-    except FAULTS as problem:
+    except (*FAULTS, OverflowError) as problem:
         raise RunError(f"{path}: cannot read the frames: {' '.join(str(problem).split())}; {ANEW}") from None
+    return loaded
+
+
+def _load_run(path, missing):
+    with opened(path, LAYOUT, missing) as file:
+        if file.attrs.get("format") != FORMAT:
+            raise RunError(f"{path}: no recorded frames ({FORMAT})")
+        loaded = _load(file)
+    if loaded.summary is None:
+        frame_log.add_frames(loaded, append_log.read(Path(path).with_name(frame_log.NAME), loaded.run))
+    return loaded
+
+
+def _load_scene(path):
+    """Frames of a log of `yt.record`; its elements are one structure without storeys, its joints on no side."""
+    title, elements, joints, records = scene_log.read(path, LAYOUT)
+    elements |= {"group": ["main"] * len(elements["name"]), "storey": np.zeros(len(elements["name"]), "i4")}
+    joints |= {name: [""] * len(joints["name"]) for name in ("storey", "side")}
+    loaded = Frames(title, "", "", "", _elements(elements), Joints(**joints))
+    frame_log.add_frames(loaded, records)
     return loaded
 
 
@@ -378,9 +376,9 @@ def _check_finite(frames):
 def _load(file):
     attributes = {name: str(file.attrs.get(name, "")) for name in ATTRIBUTES}
     series = {name: file["frames"][name][()] for name in ("time", "position", "orientation", "load", "broken")}
-    loaded = Frames(**attributes, elements=_load_elements(file["elements"]), joints=Joints(**_values(file["joints"])),
-                    sheets=Sheets(**_values(file["sheets"])), **series)
-    loaded.contacts = _load_contacts(file["contacts"])
+    loaded = Frames(**attributes, elements=_elements(_values(file["elements"])),
+                    joints=Joints(**_values(file["joints"])),
+                    sheets=Sheets(**_values(file["sheets"])), **series, contacts=_load_contacts(file["contacts"]))
     if "motion" in file:
         numbers = {name: float(file["motion"].attrs[name]) for name in ("dt", "start")}
         loaded.motion = Motion(**numbers, **_values(file["motion"]))
@@ -404,8 +402,8 @@ def _split(flat, start):
     return [flat[a:b] for a, b in zip(start[:-1], start[1:])]
 
 
-def _load_elements(group):
-    values = _values(group)
+def _elements(values):
+    """Elements of the tables of /elements."""
     begins = {name: values.pop(name) for name in ("vertex_start", "face_start", "element_start")}
     faces = [list(map(int, face)) for face in _split(values["faces"], begins["face_start"])]
     values |= {"vertices": _split(values["vertices"], begins["vertex_start"]),

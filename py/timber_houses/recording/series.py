@@ -3,8 +3,8 @@
 from collections import namedtuple
 
 import numpy as np
-from yade_timber.atomic_write import write_text
 
+from ..base.atomic_write import write_text
 from ..base.errors import RunError
 from ..base.table import csv_text, read_csv
 

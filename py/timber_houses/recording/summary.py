@@ -4,8 +4,7 @@ import json
 from dataclasses import dataclass
 from pathlib import Path
 
-from yade_timber.atomic_write import write_text
-
+from ..base.atomic_write import write_text
 from ..base.errors import RunError
 from ..base.json_types import decode, encode, optional
 from ..base.record_file import read_record

@@ -10,6 +10,7 @@ undamaged   none of these
 Peak drifts decide, since a frame that swings back may have lost its strength. A structure leans when its residual drift
 exceeds the tilt.
 """
+import math
 from dataclasses import dataclass, field
 
 UNDAMAGED, REPAIRABLE, UNSAFE, COLLAPSED = STATES = ("undamaged", "repairable", "unsafe", "collapsed")
@@ -42,7 +43,9 @@ SAFETY = Limit(1 / 30, "safety limit", "Japan Building Disaster Prevention Assoc
 TILT = Limit(1 / 10, "tilt", "this package: the weight of the upper storey begins to overturn the house")
 LIMITS = (DAMAGE, SAFETY, TILT)
 FALL = 1 / 2
-"""Height by which a level of a collapsed structure has come down, over that of its storey. [-] HouseMonitor, too."""
+"""Height by which a level of a collapsed structure has come down, over that of its storey. [-]"""
+FALLEN_ANGLE = math.radians(45)
+"""Inclination beyond which a column has fallen. [rad]"""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,6 +10,7 @@ import numpy as np
 import yade.wrapper as yw
 from yade_timber import host
 from yade_timber.plugin import compiled
+from yade_timber.scene import record
 from yade_timber.scene.engines import find_engine
 
 from ..base.json_types import decode, encode
@@ -18,7 +19,7 @@ from ..recording import frames
 from ..recording.damage import SIDES, DamageSurvey, Level, State
 from ..recording.events import Collapse, EventLog, FirstBreak, OwnWeight, Tilt
 from ..recording.summary_parts import ModesAt
-from ..recording.verdict import TILT, UNDAMAGED
+from ..recording.verdict import FALL, FALLEN_ANGLE, TILT, UNDAMAGED
 from ..scene.scenario import level_marks
 from .modal import modes_now
 
@@ -35,29 +36,23 @@ O = yw.Omega()
 
 
 def describe_elements(model):
-    """frames.Elements of the scene."""
+    """frames.Elements of the scene, in their placement before the first step."""
     bodies, elements = list(O.bodies), model.elements
-    return frames.Elements(name=[e.name for e in elements], kind=[e.kind for e in elements],
-                           group=[e.group for e in elements], material=[e.material for e in elements],
-                           storey=np.array([e.storey for e in elements]), fixed=np.array([e.fixed for e in elements]),
-                           position=np.array([b.state.refPos for b in bodies]),
-                           orientation=np.array([[q[3], q[0], q[1], q[2]] for q in (b.state.refOri for b in bodies)]),
-                           vertices=[np.array(b.shape.vertices) for b in bodies],
-                           faces=[b.shape.faces() for b in bodies])
+    start = {"position": np.array([b.state.refPos for b in bodies]),
+             "orientation": np.array([[q[3], q[0], q[1], q[2]] for q in (b.state.refOri for b in bodies)])}
+    return frames.Elements(**record.describe_bodies(bodies) | start, group=[e.group for e in elements],
+                           storey=np.array([e.storey for e in elements]))
 
 
 def describe_joints(model):
     """frames.Joints of the scene."""
-    number, sheets = element_numbers(model), sheet_numbers(model)
+    sheets = sheet_numbers(model)
     specs, joints = model.joints, list(find_engine(yw.JointEngine).joints)
-    return frames.Joints(name=[s.name for s in specs], kind=[s.kind for s in specs],
-                         storey=[storey_of(s, model) for s in specs], side=["+".join(sides_of(s)) for s in specs],
-                         a=np.array([number[s.a] for s in specs], "i4"), b=np.array([number[s.b] for s in specs], "i4"),
-                         anchor=np.array([np.mean(j.anchors1, axis=0) for j in joints]).reshape(-1, 3),
-                         springs=np.array([len(j.anchors1) for j in joints], "i4"),
-                         damaged=np.array([s.broken for s in specs], bool),
-                         strength=np.array([s.strength for s in specs], float),
-                         sheet=np.array([sheets.get(s.sheet, -1) for s in specs], "i4"))
+    described = record.describe_joints(joints, range(len(model.elements)))
+    described["damaged"] = np.array([s.broken for s in specs], bool)  # of a resumed run, too
+    described["sheet"] = np.array([sheets.get(s.sheet, -1) for s in specs], "i4")
+    return frames.Joints(**described, storey=[storey_of(s, model) for s in specs],
+                         side=["+".join(sides_of(s)) for s in specs])
 
 
 def describe_sheets(model):
@@ -128,29 +123,15 @@ def break_row(entry, model):
 # --- states -----------------------------------------------------------------------------------------------------------
 
 
-def placements():
-    """((N, 3) positions [m], (N, 4) orientations w, x, y, z) of the bodies, float32; NaN for a removed one."""
-    position, orientation = compiled.packed_placements()
-    return np.frombuffer(position, "f4").reshape(-1, 3), np.frombuffer(orientation, "f4").reshape(-1, 4)
-
-
-def joint_loads():
-    """((J,) load over strength, float32; (J,) number of broken springs, uint8)."""
-    load, broken = compiled.packed_joints(find_engine(yw.JointEngine))
-    return np.frombuffer(load, "f4"), np.frombuffer(broken, "u1")
-
-
 def largest_so_far():
     """[(load [-], pull [N], shear [N], opening [m])] of the joints: largest so far, none before a sample."""
     monitor = find_engine(yw.StructureMonitor)
     return list(zip(monitor.load, monitor.pull, monitor.shear, monitor.opening))
 
 
-def contact_points():
-    """((P, 2) element numbers, (P, 3) positions [m], (P, 3) forces on the second element [N])."""
-    pair, position, force = compiled.packed_contacts()
-    return (np.frombuffer(pair, "i4").reshape(-1, 2), np.frombuffer(position, "f4").reshape(-1, 3),
-            np.frombuffer(force, "f4").reshape(-1, 3))
+def set_limits(monitor):
+    """Give a HouseMonitor the limits of the verdict."""
+    monitor.updateAttrs({"tiltDrift": TILT.drift, "fallDrop": FALL, "fallenAngle": FALLEN_ANGLE})
 
 
 class Observer:
@@ -163,7 +144,7 @@ class Observer:
         self.peaks = progress["peaks"] if progress else dict.fromkeys(self.survey.structures, 0.0)
         self.modes = decode(ModesAt | None, progress["modes"]) if progress else None
         self.upright = progress["upright"] if progress else (0.0, [])
-        find_engine(yw.HouseMonitor).tiltDrift = TILT.drift
+        set_limits(find_engine(yw.HouseMonitor))
         motion = describe_motion()
         self.shaking = motion and motion.first(HARMFUL)
 
@@ -177,7 +158,7 @@ class Observer:
         return [level for level in self.survey.levels if level.structure == self.survey.structures[0]]
 
     def fall(self):
-        """Start of a collapsed house's fall: a storey drift passes 1/10, or a floor is down [s]; None if it stands."""
+        """Start of a collapsed house's fall: a storey tilts, or a floor is down [s]; None if it stands."""
         monitor = find_engine(yw.HouseMonitor)
         return (float(np.nanmin([monitor.tiltTime, monitor.collapseTime])) if math.isfinite(monitor.collapseTime)
                 else None)
@@ -189,8 +170,8 @@ class Observer:
     def state(self):
         """damage.State of the scene; bodies and joints that the user has added are left out."""
         elements, joints = len(self.model.elements), len(self.model.joints)
-        position, orientation = placements()
-        return State(position[:elements], orientation[:elements], joint_loads()[1][:joints])
+        position, orientation = record.placements()
+        return State(position[:elements], orientation[:elements], record.joint_loads()[1][:joints])
 
     def observe(self, time, last=False):
         """Note the events up to a time [s], that of the scene's state. last: whether it is the final state"""

@@ -9,9 +9,10 @@ from typing import NamedTuple
 
 import numpy as np
 import yade.wrapper as yw
-from yade_timber.atomic_write import write_text
+from yade_timber.scene import record
 from yade_timber.scene.engines import find_engine, gravity_now
 
+from ..base.atomic_write import write_text
 from ..base.table import csv_text
 from ..recording import quantities
 from ..recording.history import DIRECTIONS
@@ -115,7 +116,7 @@ COLUMN_HEADER = ("column", "structure", "storey", "east [m]", "north [m]", "upli
 
 def joint_peaks(observed):
     """Rows of joints.csv, the largest utilisation first. observed: Observer of the run"""
-    model, (_, broken) = observed.model, observer.joint_loads()
+    model, (_, broken) = observed.model, record.joint_loads()
     peaks = observed.joint_peaks() or [(0.0,) * 4] * len(model.joints)
     rows = []
     for joint, (load, pull, shear, opening), springs in zip(model.joints, peaks, broken):

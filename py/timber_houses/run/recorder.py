@@ -4,9 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import yade.wrapper as yw
-from yade_timber.atomic_write import remove
+from yade_timber.scene import record
 from yade_timber.scene.engines import find_engine
 
+from ..base.atomic_write import remove
 from ..base.errors import RunError
 from ..recording import frame_log, frames
 from ..recording.append_log import AppendLog
@@ -37,10 +38,10 @@ class Recorder:
             return
         self.times.append(time)
         elements, joints = len(self.frames.elements.name), len(self.frames.joints.name)
-        bodies = (values[:elements] for values in observer.placements())
-        self.log.add(frame_log.FRAME, time, *bodies, *(values[:joints] for values in observer.joint_loads()))
+        bodies = (values[:elements] for values in record.placements())
+        self.log.add(frame_log.FRAME, time, *bodies, *(values[:joints] for values in record.joint_loads()))
         if last or (len(self.times) - 1) % frames.CONTACT_EVERY == 0:
-            self.log.add(frame_log.CONTACTS, time, *observer.contact_points())
+            self.log.add(frame_log.CONTACTS, time, *record.contact_points())
 
     def _cut(self, time):
         self.log.cut(time + O.dt / 2)

@@ -7,10 +7,10 @@ from contextlib import contextmanager
 from shlex import quote
 
 import yade.wrapper as yw
-from yade_timber.atomic_write import remove
 from yade_timber.scene.engines import find_engine
 from yade_timber.scene.export import export_scene
 
+from ..base.atomic_write import remove, written_whole
 from ..base.errors import RunError, os_errors
 from ..pictures import OWNER, REPORT, TOWN, all_pictures
 from ..recording import ensemble, frame_log, frames
@@ -111,8 +111,9 @@ class Run(Stoppable):
         self.model = build(self.scenario)
         if self.options.export:
             target = f"{self.options.named('export')} {self.options.export}"
-            with os_errors(lambda fault: f"{target}: cannot be written: {fault}"):
-                export_scene(self.options.export)
+            with (os_errors(lambda fault: f"{target}: cannot be written: {fault}"),
+                  written_whole(self.options.export) as part):
+                export_scene(part)
 
     def _resume(self):
         """Load checkpoint and frames; returns False when the run may start anew instead. Raises RunError."""

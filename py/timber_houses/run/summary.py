@@ -5,12 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 import yade.wrapper as yw
-from yade_timber.atomic_write import write_text
 from yade_timber.energy_terms import DISSIPATED, ELASTIC, IMPOSED
 from yade_timber.plugin import compiled
 from yade_timber.scene import queries
 from yade_timber.scene.engines import find_engine
 
+from ..base.atomic_write import write_text
 from ..base.errors import RunError
 from ..base.json_types import decode, encode
 from ..base.table import csv_text

@@ -8,9 +8,9 @@ from contextlib import contextmanager
 
 import yade.runtime
 import yade.wrapper as yw
-from yade_timber.atomic_write import write_text
 from yade_timber.plugin import compiled
 
+from ..base.atomic_write import write_text
 from ..base.errors import InputError, RunError
 from ..base.files import remove_parts
 from ..base.lock import prepare_folder

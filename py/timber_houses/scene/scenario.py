@@ -4,9 +4,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 import yade.wrapper as yw
+from yade.minieigenHP import Vector2
 from yade_timber.plugin import compiled
 from yade_timber.scene import bodies, engines
-from yade_timber.scene.joints import make_joint
+from yade_timber.scene.joints import PARAMETERS, PER_JOINT, attribute, make_joint
 from yade_timber.scene.queries import stable_dt
 
 from ..base.colors import KINDS
@@ -143,7 +144,18 @@ def make_material(name, spec, model):
 
 def add_joints(model, ids):
     """TimberJoints of the model, between the bodies in their present placement."""
-    return [make_joint(ids[j.a], ids[j.b], j) for j in model.joints]
+    return [make_joint(ids[j.a], ids[j.b], j.points, j.normal, **attributes(j)) for j in model.joints]
+
+
+def attributes(joint):
+    """{attribute of TimberJoint: value} of a JointSpec."""
+    law = {name: getattr(joint.cycles or joint, name) for name in PARAMETERS[joint.law]}
+    values = {name: getattr(joint, name)
+              for name in ("kn", "ks", "strength", "kind", "name", "law", "damping_ratio", "damping_time",
+                           "initial_damping")}
+    return {"perJoint": PER_JOINT[joint.per], "broken": [int(joint.broken)] * len(joint.points),
+            "envelope": [Vector2(*point) for point in joint.envelope],
+            **{attribute(name): value for name, value in (values | law).items()}}
 
 
 def level_marks(model, structure):

@@ -17,8 +17,7 @@ from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from yade_timber.atomic_write import remove, write_text
-
+from ..base.atomic_write import remove, write_text
 from ..base.errors import RunError
 from ..base.files import make_folder
 from ..base.json_types import require

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Summaries and events in English."""
+import math
+
 from ..recording import verdict
 from ..recording.summary import TownSummary
 
@@ -249,8 +251,8 @@ PHRASES = {
     "collapse": lambda facts: "collapse: a floor has come down by half a storey",
     "own_weight": own_weight,
     "structure_fallen": lambda facts: f"{facts.structure} has fallen: a level is down by half a storey",
-    "columns_lost": lambda facts: (f"{facts.number} of {facts.total} columns inclined by more than 45 degrees or"
-                                   " without a joint"),
+    "columns_lost": lambda facts: (f"{facts.number} of {facts.total} columns inclined by more than"
+                                   f" {math.degrees(verdict.FALLEN_ANGLE):.0f} degrees or without a joint"),
     "snow_fallen": snow_fallen,
     "shaking_begins": lambda facts: "the shaking begins",
     "strongest_shaking": lambda facts: "strongest shaking",
@@ -300,9 +302,10 @@ def ratio(drift, below="below "):
 
 
 def joint_place(kind, storey, side):
-    """'column-beam joint, storey 1, west side' from the values of breaks.csv."""
-    walls = side if side == "inside" else f"{side.replace('+', ' and ')} side{'s' * ('+' in side)}"
-    return f"{kind.replace('_', '-')} joint, {f'storey {storey}' if storey.isdigit() else storey}, {walls}"
+    """'column-beam joint, storey 1, west side' from the values of breaks.csv; '' for storey and side: unknown."""
+    walls = side if side in ("inside", "") else f"{side.replace('+', ' and ')} side{'s' * ('+' in side)}"
+    named = f"{kind.replace('_', '-')} joint".lstrip()
+    return ", ".join(filter(None, (named, f"storey {storey}" if storey.isdigit() else storey, walls)))
 
 
 COUPLED = 0.5

@@ -10,6 +10,7 @@ Threads take turns to start, interrupt and await a run: what is guarded waits wh
 """
 import threading
 from contextlib import contextmanager
+from functools import wraps
 
 import yade.wrapper as yw
 from yade.minieigenHP import Vector3
@@ -127,25 +128,25 @@ def within(context, part):
     if isinstance(part, property):
         return property(within(context, part.fget), part.fset, doc=part.__doc__)
 
+    @wraps(part)
     def call(*args, **options):
         if _computes_steps():
             return part(*args, **options)
         with context():
             return part(*args, **options)
 
-    call.__name__, call.__doc__ = part.__name__, part.__doc__
     return call
 
 
 def _counted(pause):
     """`O.pause`, after which no run goes on that `between_steps` has interrupted."""
 
+    @wraps(pause)
     def call(omega):
         global _pauses
         pause(omega)
         _pauses += 1
 
-    call.__name__, call.__doc__ = pause.__name__, pause.__doc__
     return call
 
 

@@ -5,6 +5,8 @@ YADE ends the process at None in a list. `guard` refuses it. A body that is eras
 another body may get its id before the next step, or the scene may be saved. An interaction that is erased begins anew
 as one of bodies that are placed.
 """
+from functools import wraps
+
 import yade.wrapper as yw
 
 from ..plugin import compiled
@@ -31,9 +33,9 @@ def guard():
     for name, owner, methods in FILLED:
         for method in filter(lambda method: hasattr(owner, method), methods):
             setattr(owner, method, _checked(f"O.{name}.{method}", getattr(owner, method), alone=True))
-    yw.BodyContainer.erase = _erase_body(yw.BodyContainer.erase)
-    yw.InteractionContainer.erase = _erase_interaction(yw.InteractionContainer.erase)
-    yw.InteractionContainer.clear = _clear_interactions(yw.InteractionContainer.clear)
+    yw.BodyContainer.erase = _followed_by(_break_joints, yw.BodyContainer.erase)
+    yw.InteractionContainer.erase = _followed_by(_begin_anew, yw.InteractionContainer.erase)
+    yw.InteractionContainer.clear = _followed_by(_begin_anew, yw.InteractionContainer.clear)
 
 
 def require_objects(name, value):
@@ -57,44 +59,33 @@ def _without_none(name, part):
 def _checked(name, function, alone=False):
     """Constructor or method whose arguments are checked. alone: None is no argument itself, either."""
 
+    @wraps(function)
     def call(self, *args, **options):
         for value in (*args, *options.values()):
             require_objects(name, [value] if alone else value)
         return function(self, *args, **options)
 
-    call.__name__, call.__doc__ = function.__name__, function.__doc__
     return call
 
 
-def _erase_body(erase):
+def _followed_by(consequence, function):
+    """Method of a container after which a function is called with its result and its arguments."""
 
-    def call(bodies, id, *args, **options):
-        erased = erase(bodies, id, *args, **options)
-        if erased:
-            compiled.break_joints_of(id)
-        return erased
+    @wraps(function)
+    def call(container, *args, **options):
+        result = function(container, *args, **options)
+        consequence(result, *args, *options.values())
+        return result
 
-    call.__name__, call.__doc__ = "erase", erase.__doc__
     return call
 
 
-def _erase_interaction(erase):
-
-    def call(interactions, id1, id2):
-        erase(interactions, id1, id2)
-        for body in (id1, id2):
-            compiled.begin_contacts_anew(body)
-
-    call.__name__, call.__doc__ = "erase", erase.__doc__
-    return call
+def _break_joints(erased, body, *_):
+    if erased:
+        compiled.break_joints_of(body)
 
 
-def _clear_interactions(clear):
-
-    def call(interactions):
-        clear(interactions)
-        for body in range(len(O.bodies)):
-            compiled.begin_contacts_anew(body)
-
-    call.__name__, call.__doc__ = "clear", clear.__doc__
-    return call
+def _begin_anew(_, *pair):
+    """Begin the contacts of two bodies anew, or of all bodies."""
+    for body in pair or range(len(O.bodies)):
+        compiled.begin_contacts_anew(body)

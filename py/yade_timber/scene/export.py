@@ -2,13 +2,13 @@
 """The scene as JSON, for other solvers."""
 import json
 import math
+from pathlib import Path
 
 import yade.wrapper as yw
 
-from ..atomic_write import write_text
 from . import engines
 from .background import between_steps
-from .joints import joins_bodies
+from .joints import PARAMETERS, attribute, joins_bodies
 
 O = yw.Omega()
 
@@ -43,12 +43,10 @@ def export_scene(path):
     initial_damping, broken (one flag per spring), kind, name, slip and wall (the parameters and the history of each
     spring with this law; null for both: brittle); none of a removed body.
     """
-    for body in O.bodies:
-        if not isinstance(body.shape, yw.RoundedPolyhedron):
-            raise ValueError(f"export_scene: body {body.id} is no RoundedPolyhedron")
+    bodies = polyhedra("export_scene")
     joint_engine = engines.find_engine(yw.JointEngine)
     materials = {}
-    elements = [describe_element(body, materials) for body in O.bodies]
+    elements = [describe_element(body, materials) for body in bodies]
     content = {
         "format": "yade-timber scene 1",
         "units": "SI; world frame x east, y north, z up",
@@ -60,7 +58,15 @@ def export_scene(path):
         "joints": ([describe_joint(joint) for joint in joint_engine.joints if joins_bodies(joint)] if joint_engine
                    else []),
     }
-    write_text(path, json.dumps(content, indent=1, allow_nan=False))
+    Path(path).write_text(json.dumps(content, indent=1, allow_nan=False), encoding="ascii")
+
+
+def polyhedra(caller):
+    """List of the scene's bodies. Raises ValueError for one that is no RoundedPolyhedron."""
+    for body in O.bodies:
+        if not isinstance(body.shape, yw.RoundedPolyhedron):
+            raise ValueError(f"{caller}: body {body.id} is no RoundedPolyhedron")
+    return list(O.bodies)
 
 
 def describe_material(material):
@@ -105,19 +111,19 @@ def describe_joint(joint):
             "wall": describe_wall(joint) if joint.law == "wall" else None}
 
 
+def describe_law(joint):
+    """Dictionary of a TimberJoint's law: its envelope (n, 2) [m, N] and parameters [-, m, N, N/m]."""
+    return {"envelope": [list(point) for point in joint.envelope],
+            **{name: getattr(joint, attribute(name)) for name in PARAMETERS[joint.law]}}
+
+
 def describe_slip(joint, state):
-    """Dictionary of a yielding TimberJoint: friction_share [-], stretches [m], envelope (n, 2) [m, N], plastic (n, 3)
-    in the world and largest (n,) [m]."""
-    return {"friction_share": joint.frictionShare, "softening_stretch": joint.softeningStretch,
-            "ultimate_stretch": joint.ultimateStretch, "envelope": [list(point) for point in joint.envelope],
-            "plastic": [list(state.ori * p) for p in joint.plasticStretches], "largest": list(joint.largestStretches)}
+    """The same of a yielding TimberJoint, with its stretches: plastic (n, 3) in the world and largest (n,) [m]."""
+    return {**describe_law(joint), "plastic": [list(state.ori * p) for p in joint.plasticStretches],
+            "largest": list(joint.largestStretches)}
 
 
 def describe_wall(joint):
-    """Dictionary of a TimberJoint of a wall: envelope (n, 2) [m, N], its cycles, and the history of each spring."""
-    return {"envelope": [list(point) for point in joint.envelope], "friction_force": joint.frictionForce,
-            "pinched_stiffness": joint.pinchedStiffness, "reload_target": joint.reloadTarget,
-            "reload_share": joint.reloadShare, "reload_stiffness": joint.reloadStiffness,
-            "reload_stretch": joint.reloadStretch, "reload_power": joint.reloadPower,
-            "springs": [{key: list(value) if isinstance(value, tuple) else value for key, value in spring.items()}
-                        for spring in joint.cycles]}
+    """The same of a TimberJoint of a wall, with the history of each spring."""
+    return {**describe_law(joint), "springs": [{key: list(value) if isinstance(value, tuple) else value
+                                                for key, value in spring.items()} for spring in joint.cycles]}

@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Joints between bodies of the scene that is loaded in YADE."""
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields
 
 import yade.wrapper as yw
-from yade.minieigenHP import Vector2, Vector3
+from yade.minieigenHP import Vector3
 
-from ..joint_values import JointValues
 from . import arguments
 from .background import between_steps
 from .engines import find_engine
@@ -34,6 +33,12 @@ class SlipLaw:
     softening_stretch: float
     ultimate_stretch: float
     friction_share: float = 0.3
+
+
+PARAMETERS = {"brittle": (), "slip": tuple(part.name for part in fields(SlipLaw)),
+              "wall": ("friction_force", "reload_target", "reload_share", "pinched_stiffness", "reload_stiffness",
+                       "reload_stretch", "reload_power")}
+"""Law of the springs -> its parameters besides the envelope."""
 
 
 @between_steps()
@@ -77,12 +82,12 @@ def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strengt
     if id1 == id2:
         raise ValueError(f"connect: body {id1} cannot be joined with itself")
     springs = checked_springs(points, normal, stiffness, strength, per, kind, name, damping_ratio)
-    require_near(springs.points, id1, id2)
+    require_near(springs["points"], id1, id2)
     if slip is not None:
         arguments.instance("connect: slip", slip, SlipLaw, "a SlipLaw or None")
-        numbers = {key: arguments.number(f"connect: slip.{key}", value) for key, value in vars(slip).items()}
-        springs = replace(springs, law="slip", **numbers)
-    joint, engine = make_joint(id1, id2, springs), find_engine(yw.JointEngine) or add_joint_engine()
+        springs |= {"law": "slip", **{attribute(key): arguments.number(f"connect: slip.{key}", value)
+                                      for key, value in vars(slip).items()}}
+    joint, engine = make_joint(id1, id2, **springs), find_engine(yw.JointEngine) or add_joint_engine()
     if engine.hasSame(joint):
         raise ValueError(f"connect: bodies {id1} and {id2} have the same joint at these points already: give another"
                          " stiffness or strength to one joint")
@@ -91,7 +96,7 @@ def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strengt
 
 
 def checked_springs(points, normal, stiffness, strength, per, kind, name, damping_ratio):
-    """JointValues of the arguments of `connect`. Raises ValueError or TypeError for a wrong one."""
+    """Arguments of `make_joint` from those of `connect`. Raises ValueError or TypeError for a wrong one."""
     if not isinstance(per, str) or per not in PER_JOINT:
         arguments.refuse(ValueError, "connect: per", per, f"one of {', '.join(PER_JOINT)}")
     points = arguments.points("connect: points", points)
@@ -108,8 +113,8 @@ def checked_springs(points, normal, stiffness, strength, per, kind, name, dampin
     damping_ratio = arguments.number("connect: damping_ratio", damping_ratio)
     if not 0 <= damping_ratio <= 1:
         arguments.refuse(ValueError, "connect: damping_ratio", damping_ratio, "between 0 and 1")
-    return JointValues(points=points, normal=normal, kind=kind, kn=kn, ks=ks, strength=strength, per=per, label=name,
-                       damping_ratio=damping_ratio)
+    return {"points": points, "normal": normal, "kind": kind, "name": name, "kn": kn, "ks": ks, "strength": strength,
+            "perJoint": PER_JOINT[per], "dampingRatio": damping_ratio}
 
 
 def require_near(points, *ids):
@@ -134,34 +139,21 @@ def add_joint_engine():
     return engine
 
 
-def make_joint(id1, id2, springs):
-    """TimberJoint between two bodies of the scene in their present placement; springs: JointValues."""
+def make_joint(id1, id2, points, normal=None, **attributes):
+    """TimberJoint between two bodies in their present placement. points: of its springs (n, 3) [m]; normal: as in
+    `connect`; attributes: further ones of TimberJoint."""
     s1, s2 = O.bodies[id1].state, O.bodies[id2].state
-    points = [Vector3(*p) for p in springs.points]
-    direction = Vector3(*springs.normal) if springs.normal is not None else s2.pos - s1.pos
+    points = [Vector3(*p) for p in points]
+    direction = Vector3(*normal) if normal is not None else s2.pos - s1.pos
     return yw.TimberJoint(id1=id1, id2=id2, anchors1=[s1.ori.conjugate() * (p - s1.pos) for p in points],
                           anchors2=[s2.ori.conjugate() * (p - s2.pos) for p in points],
-                          normal=s1.ori.conjugate() * direction.normalized(), kn=springs.kn, ks=springs.ks,
-                          strength=springs.strength, perJoint=PER_JOINT[springs.per],
-                          broken=[int(springs.broken)] * len(points), dampingRatio=springs.damping_ratio,
-                          dampingTime=springs.damping_time, initialDamping=springs.initial_damping,
-                          kind=springs.kind, name=springs.name, law=springs.law, **_LAWS[springs.law](springs))
+                          normal=s1.ori.conjugate() * direction.normalized(), **attributes)
 
 
-def _slip(springs):
-    return {"frictionShare": springs.friction_share, "softeningStretch": springs.softening_stretch,
-            "ultimateStretch": springs.ultimate_stretch, "envelope": [Vector2(*point) for point in springs.envelope]}
-
-
-def _wall(springs):
-    cycles = springs.cycles
-    return {"envelope": [Vector2(*point) for point in springs.envelope], "frictionForce": cycles.friction_force,
-            "pinchedStiffness": cycles.pinched_stiffness, "reloadTarget": cycles.reload_target,
-            "reloadShare": cycles.reload_share, "reloadStiffness": cycles.reload_stiffness,
-            "reloadStretch": cycles.reload_stretch, "reloadPower": cycles.reload_power}
-
-
-_LAWS = {"brittle": lambda springs: {}, "slip": _slip, "wall": _wall}
+def attribute(parameter):
+    """'friction_share' -> 'frictionShare': name of a parameter in TimberJoint."""
+    first, *others = parameter.split("_")
+    return first + "".join(map(str.capitalize, others))
 
 
 def joins_bodies(joint):

@@ -14,6 +14,7 @@ from timber_research.claims import STILL
 from yade import O
 from timber_houses.house import changed_house
 from timber_houses.motion import default_motion, trim
+from timber_houses.run.observer import set_limits
 from timber_houses.scene import scenario
 from yade_timber.scene import engines
 
@@ -31,6 +32,7 @@ def monitored(house, snow=0.0, motion=None, duration=1.0, until=lambda monitor: 
     """HouseMonitor after `duration` [s], or when `until` becomes true."""
     scenario.build(scenario.Scenario("short", house, motion, snow_depth=snow))
     monitor = engines.find_engine(yw.HouseMonitor)
+    set_limits(monitor)
     while O.time < duration and not until(monitor):
         O.run(250, True)
     return monitor

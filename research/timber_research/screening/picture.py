@@ -6,7 +6,7 @@ import textwrap
 
 import numpy as np
 from matplotlib.figure import Figure
-from yade_timber.atomic_write import written_whole
+from timber_houses.base.atomic_write import written_whole
 from timber_houses.base.colors import BLUE, GREY, ORANGE
 from timber_houses.pictures.style import default_style
 

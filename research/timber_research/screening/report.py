@@ -2,7 +2,7 @@
 """Tables of a screening: cells, main effects, interactions."""
 import math
 
-from yade_timber.atomic_write import write_text
+from timber_houses.base.atomic_write import write_text
 from timber_houses.base.table import csv_text
 from timber_houses.text.english import counted
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Results of a batch in one CSV file, one row per run."""
-from yade_timber.atomic_write import write_text
 
+from ...base.atomic_write import write_text
 from ...base.json_types import encode, leaves
 from ...base.table import csv_text
 from ...text.english import event

@@ -5,8 +5,7 @@ from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
-from yade_timber.atomic_write import write_text
-
+from ...base.atomic_write import write_text
 from ...base.errors import InputError
 from ...base.files import make_folder
 from ...base.notes import noted

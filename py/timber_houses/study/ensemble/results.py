@@ -4,8 +4,7 @@ import json
 import shutil
 from dataclasses import replace
 
-from yade_timber.atomic_write import write_text, written_whole
-
+from ...base.atomic_write import write_text, written_whole
 from ...base.table import csv_text
 from ...house.disturbance import LARGEST
 from ...recording import frames

@@ -5,8 +5,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from yade_timber.atomic_write import write_text
-
+from ...base.atomic_write import write_text
 from ...house import (HouseError, brace_parts, build_house, changed_house, free_bays, free_wall_bays, load_house,
                       wall_parts)
 from ...house.parser import house_text

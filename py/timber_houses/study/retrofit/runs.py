@@ -4,8 +4,7 @@ import math
 from dataclasses import dataclass
 from pathlib import Path
 
-from yade_timber.atomic_write import write_text
-
+from ...base.atomic_write import write_text
 from ...base.errors import RunError
 from ...base.processors import processors
 from ...base.table import csv_text
