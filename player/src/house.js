@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The elements of a run as two batches: timber, and snow. One draw call each.
+// The elements of a run as two batches, timber and snow, and its wall sheets as a third. One draw call each.
 import { BatchedMesh, BufferAttribute, BufferGeometry, Color, Group, Matrix4, MeshLambertMaterial, Quaternion, Vector3 } from "three";
 
 const EDGE = 0.5; // brightness of the lines along edges
@@ -35,41 +35,74 @@ export class House extends Group {
 
   /** Copy the current placement of the run's elements. */
   update() {
-    const { position, orientation } = this.run;
-    for (const one of this.batches) {
-      const { numbers } = one.userData;
-      for (let i = 0; i < numbers.length; i++) {
-        const k = numbers[i];
-        place.fromArray(position, 3 * k);
-        turn.fromArray(orientation, 4 * k);
-        one.setMatrixAt(i, matrix.compose(place, turn, unit));
-      }
-    }
+    for (const one of this.batches) follow(one, this.run, one.userData.numbers);
   }
 }
+
+/** The plates of the wall sheets, each with a column; torn ones of broken sheets (pictures/panels.py). */
+export class Sheathing extends Group {
+  constructor(run) {
+    super();
+    this.run = run;
+    const { plates } = run.info;
+    if (!plates.length) return;
+    const parts = Object.fromEntries(SHAPES.map((name) => [name, run[`plate_${name}`]]));
+    this.colors = Object.fromEntries(Object.entries(run.info.sheet_colors).map(([state, color]) => [state, new Color(color)]));
+    this.mesh = mesh(plates.map((_, k) => solid(parts, k)), plates.map(() => this.colors.whole), timber());
+    this.bodies = plates.map(({ body }) => body);
+    this.add(this.mesh);
+  }
+
+  /** Copy the current placement of the columns, and show the states of the sheets. */
+  update() {
+    if (!this.mesh) return;
+    follow(this.mesh, this.run, this.bodies);
+    this.run.info.plates.forEach(({ sheet, torn }, k) => {
+      const state = this.run.sheetState(sheet);
+      this.mesh.setVisibleAt(k, torn === (state === "broken"));
+      this.mesh.setColorAt(k, this.colors[state]);
+    });
+  }
+}
+
+/** Place the instances of a batch where the elements of these numbers are. */
+function follow(batch, { position, orientation }, numbers) {
+  for (let i = 0; i < numbers.length; i++) {
+    place.fromArray(position, 3 * numbers[i]);
+    turn.fromArray(orientation, 4 * numbers[i]);
+    batch.setMatrixAt(i, matrix.compose(place, turn, unit));
+  }
+}
+
+const SHAPES = ["vertices", "vertex_start", "faces", "face_start", "element_start"]; // arrays of an element's shape
 
 const [place, turn, unit, matrix] = [new Vector3(), new Quaternion(), new Vector3(1, 1, 1), new Matrix4()];
 
 function batch(run, elements, material) {
-  const shapes = elements.map(({ number }) => solid(run, number));
-  const size = shapes.reduce((sum, shape) => sum + shape.attributes.position.count, 0);
-  const mesh = new BatchedMesh(elements.length, size, 0, material);
-  const colors = new Map(run.info.kinds.map(({ kind, color }) => [kind, new Color(color)]));
-  mesh.userData.colors = elements.map(({ kind }) => colors.get(kind));
-  elements.forEach((_, i) => {
-    mesh.addInstance(mesh.addGeometry(shapes[i]));
-    mesh.setColorAt(i, mesh.userData.colors[i]);
-  });
-  mesh.userData.numbers = elements.map(({ number }) => number);
-  mesh.perObjectFrustumCulled = mesh.sortObjects = mesh.frustumCulled = false;
-  mesh.castShadow = mesh.receiveShadow = true;
-  return mesh;
+  const tints = new Map(run.info.kinds.map(({ kind, color }) => [kind, new Color(color)]));
+  const colors = elements.map(({ kind }) => tints.get(kind));
+  const made = mesh(elements.map(({ number }) => solid(run, number)), colors, material);
+  Object.assign(made.userData, { colors, numbers: elements.map(({ number }) => number) });
+  return made;
 }
 
-/** Triangles of an element: each face as a fan around its middle. `border`: distance to the face's edge [m]. */
-function solid(run, number) {
+/** One draw call for geometries, each with a colour. */
+function mesh(shapes, colors, material) {
+  const size = shapes.reduce((sum, shape) => sum + shape.attributes.position.count, 0);
+  const made = new BatchedMesh(shapes.length, size, 0, material);
+  shapes.forEach((shape, i) => {
+    made.addInstance(made.addGeometry(shape));
+    made.setColorAt(i, colors[i]);
+  });
+  made.perObjectFrustumCulled = made.sortObjects = made.frustumCulled = false;
+  made.castShadow = made.receiveShadow = true;
+  return made;
+}
+
+/** Triangles of a body: each face as a fan around its middle. parts: arrays of shapes; `border`: distance to the face's edge [m]. */
+function solid(parts, number) {
   const [position, normal, border] = [[], [], []];
-  const { vertices, vertex_start, faces, face_start, element_start } = run;
+  const { vertices, vertex_start, faces, face_start, element_start } = parts;
   const corner = (i) => new Vector3().fromArray(vertices, 3 * (vertex_start[number] + i));
   for (let f = element_start[number]; f < element_start[number + 1]; f++) {
     const ring = Array.from(faces.subarray(face_start[f], face_start[f + 1]), corner);

@@ -75,8 +75,8 @@ export class Panel {
 
 /** Texts about the broken joints and wall sheets of a run at its current time: { english, japanese }, or null when none is broken. */
 function brokenParts(run) {
-  const [joints, broken, sheets, torn] = [run.joints - run.apart.size, run.count(STATE.broken), run.sheets.length, run.countSheets()];
-  const partly = run.count(STATE.partly) + run.countSheetsPartly();
+  const [joints, broken, sheets, torn] = [run.joints - run.apart.size, run.count(STATE.broken), run.sheets.length, run.countSheets("broken")];
+  const partly = run.count(STATE.partly) + run.countSheets("partly");
   if (!broken && !torn && !partly) return null;
   const walls = sheets ? ` and ${torn} of ${sheets} wall sheet${sheets === 1 ? "" : "s"}` : "";
   const wallsJapanese = sheets ? `、壁面 ${sheets} のうち ${torn}` : "";
@@ -105,13 +105,17 @@ const MARKS = {
   before: ["broken before the start", "circle", { cx: 8, cy: 8, r: 5, fill: DAMAGE_COLORS.before, stroke: "#141414", "stroke-width": 2.4 }],
 };
 
+const SHEETS = { whole: "wall", partly: "wall partly broken", broken: "wall broken" };
+
 /** Fill the legend: kinds of elements and marks that occur in any run. */
 export function legend(place, runs) {
   const kinds = new Map(runs.flatMap((run) => run.info.kinds.map(({ kind, color }) => [kind, color])));
   kinds.delete("ground");
   const boxes = Array.from(kinds, ([kind, color]) => [kind === "snow" ? "snow, in rigid slabs" : kind, "rect", { x: 1, y: 1, width: 14, height: 14, rx: 2, fill: color, stroke: "#4a4a4a" }]);
   const marks = Object.keys(MARKS).filter((name) => runs.some((run) => run.occurs(STATE[name])));
-  const walls = runs.some((run) => run.sheets.length);
+  const colors = Object.assign({}, ...runs.map(({ info }) => info.sheet_colors));
+  const walls = Object.keys(colors).length > 0;
+  for (const [state, label] of Object.entries(SHEETS)) if (colors[state]) boxes.push([label, "rect", { x: 1, y: 1, width: 14, height: 14, rx: 2, fill: colors[state], stroke: "#4a4a4a" }]);
   const bar = element("span", { className: "bar" });
   bar.style.background = `linear-gradient(90deg, ${LOAD_COLORS.join()})`;
   place.replaceChildren(element("li", { className: "loads" }, bar, tr("force in a joint: none … strength")));

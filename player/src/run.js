@@ -86,10 +86,10 @@ export class Run {
 
   placeJoints(k, next, weight) {
     const { place, load, state } = this.joint;
-    const { a, anchor, loads, position, orientation } = this;
+    const { body, anchor, loads, position, orientation } = this;
     for (let j = 0; j < this.joints; j++) {
-      rotated(place, 3 * j, anchor, 3 * j, orientation, 4 * a[j]);
-      for (let i = 0; i < 3; i++) place[3 * j + i] += position[3 * a[j] + i];
+      rotated(place, 3 * j, anchor, 3 * j, orientation, 4 * body[j]);
+      for (let i = 0; i < 3; i++) place[3 * j + i] += position[3 * body[j] + i];
       load[j] = loads[k * this.joints + j] * (1 - weight) + loads[next * this.joints + j] * weight;
       state[j] = this.stateOf(k, j);
     }
@@ -144,14 +144,15 @@ export class Run {
     return found;
   }
 
-  /** Current number of wall sheets of which all joints are broken. */
-  countSheets() {
-    return this.sheets.filter((sheet) => sheet.every((j) => this.joint.state[j] === STATE.broken)).length;
+  /** Current state of a wall sheet, as in recording/walls.py. */
+  sheetState(sheet) {
+    const broken = this.sheets[sheet].filter((j) => this.joint.state[j] !== STATE.whole).length;
+    return broken === 0 ? "whole" : broken < this.sheets[sheet].length ? "partly" : "broken";
   }
 
-  /** Current number of wall sheets of which some joints are broken, but not all. */
-  countSheetsPartly() {
-    return this.sheets.filter((sheet) => sheet.some((j) => this.joint.state[j] === STATE.broken)).length - this.countSheets();
+  /** Current number of wall sheets in a state. */
+  countSheets(state) {
+    return this.sheets.filter((_, sheet) => this.sheetState(sheet) === state).length;
   }
 
   /** Current number of columns that have fallen. */

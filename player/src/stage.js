@@ -2,7 +2,7 @@
 // One run in 3D on its canvas. Frame: x east, y north, z up [m], fixed to the viewer.
 import { DirectionalLight, Fog, Group, HemisphereLight, PCFShadowMap, Scene, Vector3, WebGLRenderer } from "three";
 import { Ground } from "./ground.js";
-import { House } from "./house.js";
+import { House, Sheathing } from "./house.js";
 import { Joints } from "./joints.js";
 import { Ghost, Glass, Person } from "./surroundings.js";
 
@@ -20,9 +20,10 @@ export class Stage {
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
     this.house = new House(run);
+    this.sheathing = new Sheathing(run);
     this.joints = new Joints(run);
     Object.assign(this, { ghost: new Ghost(run), walls: new Glass(run), person: new Person(box) });
-    this.moving = new Group().add(this.house, this.joints, this.ghost, this.walls, this.person, new Ground(box));
+    this.moving = new Group().add(this.house, this.sheathing, this.joints, this.ghost, this.walls, this.person, new Ground(box));
     const [sky, sun] = lights(box);
     this.sun = sun;
     this.scene = new Scene().add(this.moving, sky, sun, sun.target);
@@ -51,6 +52,7 @@ export class Stage {
   /** Draw the current state of the run. shaken: whether the ground moves relative to the camera; the other options: whether a thing is shown. */
   draw(view, { shaken, joints, ghost, walls, person }) {
     this.house.update();
+    this.sheathing.update();
     this.joints.update();
     if (walls) this.walls.update();
     [this.joints.visible, this.ghost.visible, this.walls.visible, this.person.visible] = [joints, ghost, walls, person];

@@ -10,7 +10,7 @@ const JAPANESE = {
   "From the east: south is left, north is right": "東から：左が南、右が北", "From the north: east is left, west is right": "北から：左が東、右が西",
   "Ground acceleration, m/s²": "地動加速度 m/s²", "Storey drift": "層間変形角", "N–S": "南北", "E–W": "東西", "up–down": "上下",
   "force in a joint: none … strength": "接合部の力：なし … 強さ", "joint partly broken": "一部が破断", "joint broken (pale: hidden)": "破断（淡色：陰）", "joint or wall broken (pale: hidden)": "破断（淡色：陰）", "broken before the start": "最初から破断",
-  "snow, in rigid slabs": "雪（剛体の板）", roof: "屋根", brace: "筋かい", floor: "床", beam: "梁", column: "柱", sill: "土台", foundation: "基礎", ground: "地面",
+  "snow, in rigid slabs": "雪（剛体の板）", roof: "屋根", brace: "筋かい", floor: "床", beam: "梁", column: "柱", sill: "土台", foundation: "基礎", ground: "地面", wall: "壁", "wall partly broken": "壁（一部破断）", "wall broken": "壁（破断）",
   "Click a member or a joint for its load.": "部材か接合部を押すと力が見えます。",
   "Drag to turn the house. Pinch or use the wheel to zoom. Drag with two fingers or the right button to move it. Click a curve, a mark on the time line or an event to go to its time. Click a member or a joint for its load.":
     "ドラッグで回転、ピンチかホイールで拡大、二本指か右ボタンで移動。曲線・時間軸の印・できごとを押すとその時刻へ。部材か接合部を押すと力が見えます。",

@@ -53,6 +53,7 @@ def film_path(text):
 
 def arguments():
     form, instant = film.Format(), number(0, 1e5)
+    fewer = "; less for a town, so that it is made in half a minute"
     parser = Parser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("run", type=path, help=RECORDED)
     parser.add_argument("--compare", type=path, metavar="RUN", help="a second run, shown at the right")
@@ -65,10 +66,9 @@ def arguments():
     parser.add_argument("--start", type=instant, help="begin at this time [s] (default: 1 s before the shaking)")
     parser.add_argument("--end", type=instant,
                         help="end at this time [s] (default: when no picture differs visibly from the last one)")
-    parser.add_argument("--size", type=size, default=(form.width, form.height), metavar="WIDTHxHEIGHT",
-                        help="[pixel] (default 1920x1080)")
-    parser.add_argument("--rate", type=number(1, 120), default=form.rate,
-                        help="pictures per second (default %(default)g)")
+    parser.add_argument("--size", type=size, metavar="WIDTHxHEIGHT",
+                        help=f"[pixel] (default {form.width}x{form.height}{fewer})")
+    parser.add_argument("--rate", type=number(1, 120), help=f"pictures per second (default {form.rate:g}{fewer})")
     parser.add_argument("--quality", type=number(1, 100, int), default=form.quality,
                         help="of WebP (default %(default)d)")
     parser.add_argument(
@@ -82,10 +82,10 @@ def main():
     options = arguments()
     files = [frames_path(run) for run in (options.run, options.compare) if run]
     out = options.out or files[0].parent / ("film.mp4" if shutil.which("ffmpeg") else "film.webp")
-    form = film.Format(*options.size, options.rate, options.speed, options.quality)
     since = time.perf_counter()
     with errors_in_a_line(out):
         runs = [frames.load(file) for file in files]
+        form = film.chosen_form(runs, options.size, options.rate, speed=options.speed, quality=options.quality)
         count = film.write(out, runs, options.view, form, options.start, options.end)
     print(
         f"{out}: {count / form.rate + film.HOLD:.1f} s, {count} pictures, {out.stat().st_size / 1e6:.1f} MB, made in"

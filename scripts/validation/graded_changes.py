@@ -223,7 +223,7 @@ def finish_ratio(path):
     description = load_house(path)
     model, types = build_house(description), description.data["wall_types"]
     required = UNIT * REQUIRED[0] * floor_area(model, STRUCTURE, 1)
-    return min(sum(j.strength for j in wall_joints(model, 1, axis) if types[j.type]["finish"]) / SHARE / required
+    return min(sum(j.strength for j in wall_joints(model, 1, axis) if types[j.sheet.type]["finish"]) / SHARE / required
                for axis in AXES)
 
 

@@ -11,11 +11,12 @@ from house_storeys import AXES, wall_joints
 
 from timber_houses.base.atomic_write import write_text
 from timber_houses.house import build_house, changed_house, load_house
+from timber_houses.house.loads import bay_length
 from timber_houses.house.parser import house_text
 from timber_houses.house.weight import floor_area
 
-HOUSE, STRUCTURE, MODULE = "tiled_house", "main", 0.91
-"""The plan, its structure, and its module [m]."""
+HOUSE, STRUCTURE = "tiled_house", "main"
+"""The plan and its structure."""
 REQUIRED = (0.33, 0.21)
 """Length of wall of multiplier 1 per floor area, storeys 1 and 2 of a house of two storeys with a heavy roof [m/m2]
 (Enforcement Order of the Building Standard Law, Article 46, paragraph 4, table 2, as in force until March 2025)."""
@@ -32,21 +33,14 @@ def existing_quantity(model, wall_types, storey, direction):
     """Sum of length times multiplier over the bays without openings. [m]"""
     bays = {}
     for joint in wall_joints(model, storey, direction):
-        bay, _, sheet = joint.label.removesuffix(".beams").rpartition(".")
-        if sheet == joint.type:  # with an opening the label ends in its name
-            bays.setdefault(bay, []).append(joint)
-    return sum(bay_length(bay) * multiplier(sheets, wall_types) for bay, sheets in bays.items())
+        if joint.sheet.opening == "none":
+            bays.setdefault((joint.sheet.low, joint.sheet.high), []).append(joint.sheet)
+    return sum(bay_length(*map(model.element, bay)) * multiplier(sheets, wall_types) for bay, sheets in bays.items())
 
 
 def multiplier(sheets, wall_types):
-    """Of the sheets of a bay (JointSpecs) on one another. [-]"""
-    return min(LARGEST_MULTIPLIER, sum(wall_types[j.type]["multiplier"] for j in sheets))
-
-
-def bay_length(label):
-    """From a label 'main.wall1.EW.y0.3-4'. [m]"""
-    low, high = map(float, label.split(".", 4)[-1].split("-"))
-    return MODULE * (high - low)
+    """Of the sheets of a bay on one another. [-]"""
+    return min(LARGEST_MULTIPLIER, sum(wall_types[sheet.type]["multiplier"] for sheet in sheets))
 
 
 def factors(model, wall_types, grade, rule="law"):

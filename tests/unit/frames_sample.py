@@ -119,13 +119,15 @@ def write_tables(folder):
 
 
 def walled_run():
-    """The same with three wall sheets instead of the first six joints; joint k loses all its springs at FALL + 0.1 k
-    [s].
+    """The same with three wall sheets instead of the first six joints: two in the south, with a window and on it, one
+    with a door in the east. Joint k loses all its springs at FALL + 0.1 k [s].
     """
     made = run()
     joints, order = made.joints, np.arange(8)
     joints.kind[:6] = ["wall_beam", "wall_column"] * 3
-    joints.name[:6] = [f"main.wall1.NS.x{bay}.0-1.plywood.{half}" for bay in range(3) for half in ("beams", "columns")]
+    joints.sheet[:6] = [0, 0, 1, 1, 2, 2]
+    made.sheets = frames.Sheets(["plywood", "gypsum", "plywood"], ["window", "none", "door"], np.array([2, 2, 3]),
+                                np.array([3, 3, 5]))
     joints.springs, joints.damaged = np.where(order < 6, 1, 4), np.zeros(8, bool)
     made.broken = np.where(made.time[:, None] > FALL + 0.1 * order, joints.springs, 0)
     counts = {"total": 2, "wall_sheets": 3, "wall_sheets_partly": 0, "damaged_at_start": {"total": 0}}

@@ -3,6 +3,7 @@
 """Runs of the driver: only missing ones are done, and none is taken that was made from something else."""
 import json
 import os
+import re
 import sys
 
 import pytest
@@ -93,3 +94,18 @@ def test_results_made_from_something_else_are_not_taken(tmp_path, monkeypatch):
     task = Task("run", tmp_path / "a", RunOptions(house=str(house), record=str(record), scale=2.0))
     assert task.summary is None and run_missing([task], scripts, 1, said.append) == {task: None}
     assert task.status == "failed" and "another timber_houses" in task.error and task.error in said[-1]
+
+
+def test_the_first_run_tells_how_long_the_others_take(tmp_path, monkeypatch):
+    """One line after the first run, before the other two start."""
+    monkeypatch.setattr(driver, "command", lambda script: [sys.executable, str(script)])
+    scripts, said = fake_script(tmp_path, WRITES), []
+    run_missing([Task("run", tmp_path / name, RunOptions(house="A")) for name in "abc"], scripts, 1, said.append)
+    assert said[1].startswith("[1/3]") and said[3].startswith("[2/3]")
+    assert re.fullmatch(r"2 other runs as long as the first: about \d+ s, 1 at a time", said[2])
+
+
+@pytest.mark.parametrize("seconds, text", [(89.4, "about 89 s"), (90.0, "about 2 min"), (5399, "about 90 min"),
+                                           (9000, "about 2.5 h")])
+def test_times_in_words(seconds, text):
+    assert driver.about(seconds) == text

@@ -208,11 +208,11 @@ def test_finishes_are_taken_off(tmp_path):
     """No rule counts them, and one word removes them."""
     line = "{along: x, at: 0, from: 0, to: 3, type: [plywood, siding]}"
     model = house(tmp_path, line)
-    assert {joint.type: joint.multiplier for joint in sheets(model)} == {"plywood": 2.5, "siding": 0}
+    assert {joint.sheet.type: joint.sheet.multiplier for joint in sheets(model)} == {"plywood": 2.5, "siding": 0}
     own = tmp_path / "bare.yaml"
     own.write_text("extends: own.yaml\nfinishes: false\n")
     bare = build_house(load_house(own))
-    assert {joint.type for joint in sheets(bare)} == {"plywood"}
+    assert {joint.sheet.type for joint in sheets(bare)} == {"plywood"}
     assert diagnose(bare)["wall_quantity_ratio"] == diagnose(model)["wall_quantity_ratio"]
 
 

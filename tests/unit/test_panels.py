@@ -1,68 +1,144 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Walls in pictures: corners, states, openings of panels; walls and node numbers in the plan."""
+"""Wall sheets in the record and in every picture: plates with openings, torn when broken; nodes in the plan."""
 
 import sys
 from pathlib import Path
-from types import SimpleNamespace
 
+import frames_sample
 import numpy as np
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
+from timber_houses.base import colors
 from timber_houses.house import build_house, load_house
-from timber_houses.pictures import drawings
+from timber_houses.pictures import camera, drawings, film, panels, player, sheets, stage
 from timber_houses.pictures.figures import new_figure
-from timber_houses.pictures.panels import draw_panels, panels
-from timber_houses.pictures.views import FRONT, SIDE, Snapshot
+from timber_houses.pictures.raster import Window, shade
+from timber_houses.pictures.views import View
+from timber_houses.recording import frames as recorded
+from timber_houses.recording.frames import placed
+
+SOUTH = View("south", "From the south", (1, 0, 0), (0, -1, 0), "west", "east")
+BEFORE, PARTLY, BROKEN = 1.95, 2.05, 2.15
+"""Times at which the first sheet is whole, has lost one of its halves, both. [s]"""
+OPENING = {"window": 0.6 * 0.45, "door": 0.6 * 0.75, "none": 0.0}
+"""Share of a bay."""
+HEIGHT = 2.7
+"""Of the columns. [m]"""
 
 
-def column(y):
-    """Corners of a column of 0.1 x 0.1 x 2.5 m on the ground at x = 0."""
-    return np.array([[dx, y + dy, z] for z in (0, 2.5) for dx in (-0.05, 0.05) for dy in (-0.05, 0.05)])
+@pytest.fixture(scope="module")
+def run():
+    return frames_sample.walled_run()
 
 
-def frames(*states):
-    """Two columns 2 m apart, the second one lifted by 0.1 m in frame 0, with one sheet for each two states: of its
-    joints.
-    """
-    start = [column(0.0), column(2.0)]
-    moved = [start[0], start[1] + [0, 0, 0.1]]
-    count = len(states)
-    names = [f"h.wall1.NS.x0.0-1.{layer}.window.{half}" for layer in range(count // 2) for half in ("beams", "columns")]
-    joints = SimpleNamespace(kind=["wall_beam", "wall_column"] * (count // 2), a=[0] * count, b=[1] * count,
-                             side=["east"] * count, name=names)
-    elements = SimpleNamespace(storey=np.array([1, 1]))
-    return SimpleNamespace(elements=elements, joints=joints, joint_states=lambda frame: np.array(states),
-                           corners=lambda frame, k: moved[k], corners_at_start=lambda k: start[k])
+def volume(plate):
+    """By the divergence theorem; positive when faces are counter-clockwise from outside. [m3]"""
+    triangles = [(plate.vertices[face[0]], plate.vertices[i], plate.vertices[j])
+                 for face in plate.faces for i, j in zip(face[1:], face[2:])]
+    return sum(np.dot(a, np.cross(b, c)) for a, b, c in triangles) / 6
 
 
-@pytest.mark.parametrize("states, state", [
-    ("whole whole", "whole"), ("broken whole", "partly"), ("whole broken", "partly"), ("broken broken", "broken"),
-    ("broken broken whole whole", "partly"), ("broken broken broken broken", "broken"),
-])
-def test_corners_and_states(states, state):
-    panel, = panels(frames(*states.split()), 0)
-    assert panel.corners == pytest.approx(np.array([[0, 0, 0], [0, 2, 0.1], [0, 2, 2.6], [0, 0, 2.5]]))
-    assert (panel.state, panel.storey, panel.sides, panel.opening) == (state, 1, ("east",), "window")
-    assert Snapshot([], [], [panel]).states == {f"wall {state}"}
+def test_plates_fill_the_bay_but_for_the_opening(run):
+    """Both halves of a whole sheet: length x height x thickness, less the opening; a torn one is smaller."""
+    plates, lengths = panels.plates(run), (3.8, 3.8, 5.8)
+    for sheet, (length, opening) in enumerate(zip(lengths, run.sheets.opening)):
+        whole, torn = (sum(volume(plate) for plate in plates if (plate.sheet, plate.torn) == (sheet, form))
+                       for form in (False, True))
+        assert whole == pytest.approx(length * HEIGHT * panels.THICKNESS * (1 - OPENING[opening]), rel=1e-9)
+        assert 0.7 * whole < torn < 0.95 * whole
 
 
-def test_opening_lies_within_the_bay():
-    panel, = panels(frames("whole", "whole"), 0)
-    corners = panel.opening_corners()
-    assert corners[0] == pytest.approx([0, 0.4, 0.33 * 2.5 + 0.2 * 0.1])
-    assert corners[2] == pytest.approx([0, 1.6, 0.78 * 2.5 + 0.8 * 0.1])
+def test_sheets_of_a_bay_lie_beside_each_other(run):
+    """Window and board on it: middle planes LAYER apart, symmetric to the plane of the columns at y = -2.9 - 3."""
+    found = [np.mean([placed(plate.vertices, run.elements.position[plate.body], run.elements.orientation[plate.body])
+                      [:, 1].mean() for plate in panels.plates(run) if plate.sheet == sheet]) for sheet in (0, 1)]
+    assert sorted(found) == pytest.approx([-5.9 - panels.LAYER / 2, -5.9 + panels.LAYER / 2])
 
 
-def test_walls_that_face_the_viewer_are_drawn():
-    """The wall of the east side in the front view: its panel and its window; none in the side view."""
-    for view, drawn in ((FRONT, 2), (SIDE, 0)):
-        ax = new_figure(2, 2, 50).add_axes((0, 0, 1, 1))
-        draw_panels(ax, view, panels(frames("whole", "whole"), 0))
-        assert len(ax.patches) == drawn
+def test_halves_stay_at_their_columns(run):
+    """After the fall to the north: both ends of the column's axis are within a layer of the plate that it carries."""
+    shown = panels.states(run, -1)
+    carried = [plate for plate in panels.plates(run) if plate.shows(shown)]
+    for plate, (solid, _) in zip(carried, sheets.sheathing(run, -1)):
+        ends = placed(np.array([[0, 0, -HEIGHT / 2], [0, 0, HEIGHT / 2]]), run.position[-1][plate.body],
+                      run.orientation[-1][plate.body])
+        away = np.linalg.norm(solid.vertices[:, None] - ends, axis=2).min(0)
+        assert away == pytest.approx([away[0]] * 2) and away[0] < panels.LAYER
+
+
+def test_states_and_marks(run):
+    """One mark of each damaged sheet, on its plate: off the opening, and off the gap of a torn one."""
+    for time, state, marked in ((BEFORE, "whole", 0), (PARTLY, "partly", 1), (BROKEN, "broken", 1)):
+        frame = run.at(time)
+        assert panels.states(run, frame)[0] == state and len(sheets.marks(run, frame)) == marked
+        assert sheets.snapshot(run, frame).states == {f"wall {state}", "wall whole"} | ({state} if marked else set())
+    body, anchor = panels.mark_anchors(run)
+    for k, sheet in enumerate(run.joints.sheet[:6]):
+        for torn in (False, True):
+            solids = [plate for plate in panels.plates(run) if (plate.sheet, plate.torn, plate.body) ==
+                      (sheet, torn, body[k])]
+            assert any(inside(anchor[k], corners) for plate in solids for corners in plate.vertices.reshape(-1, 8, 3))
+
+
+def inside(point, corners):
+    """Whether a point lies between the ends of a prism along both axes of its plane."""
+    low, high = corners.min(0), corners.max(0)
+    return sum(low[k] - 1e-9 < point[k] < high[k] + 1e-9 for k in range(3)) >= 2
+
+
+def colour_at(picture, window, x, z):
+    left, _, _, top = window.box
+    return picture[int((top - z) * window.density), int((x - left) * window.density)] / 255
+
+
+def test_still_view_shows_sheet_opening_and_tear(run):
+    """From the south, without the board: sheet below the window, sky in it; orange when broken, sky in the tear."""
+    run = frames_sample.walled_run()
+    run.sheets.opening = ["window", "window", "door"]
+    window = Window(SOUTH, (2, 8, -0.5, 4), 60)
+    for time, state in ((BEFORE, "whole"), (run.time[-1], "broken")):
+        frame = run.at(time)
+        shown = sheets.sheathing(run, frame)
+        south = [solid for solid, _ in shown if np.ptp(solid.vertices[:, 1]) < 1.6]
+        assert {kind for _, kind in shown} == {state}
+        if state == "whole":
+            picture, _ = shade(south, window, 0.0, sky=1.0)
+            below, hole = colour_at(picture, window, 4.2, 0.7), colour_at(picture, window, 5.0, 1.8)
+            assert hole == pytest.approx((1, 1, 1)) and np.ptp(below) < 0.15 and below.max() < 0.95
+        else:
+            assert all(solid.color == colors.SHEETS["broken"] for solid in south)
+
+
+def test_film_shows_the_same(run):
+    """A picture with sheets differs from one without; torn plates are shown instead of whole ones."""
+    view = camera.look("space", film.corners(run), 16 / 9)
+    drawn = stage.Stage(run, (320, 180), view, camera.sun(film.corners(run)))
+    for time, torn in ((BEFORE, False), (run.time[-1], True)):
+        drawn.picture(time)
+        assert len(drawn.sheathing.vertices) == sum(len(plate.vertices) for plate in drawn.plates if plate.torn is torn)
+    bare = frames_sample.run()
+    view = camera.look("space", film.corners(bare), 16 / 9)
+    pictures = [np.asarray(stage.Stage(one, (320, 180), view, camera.sun(film.corners(bare))).picture(BEFORE), int)
+                for one in (run, bare)]
+    assert (abs(pictures[0] - pictures[1]).max(axis=2) > 20).mean() > 0.03
+
+
+def test_player_has_the_same_plates(run):
+    plates, arrays = panels.plates(run), player.arrays(run)
+    assert player.info(run, player.peaks.Peaks())["plates"] == [
+        {"body": plate.body, "sheet": plate.sheet, "torn": plate.torn} for plate in plates]
+    assert arrays["plate_vertices"][0] == pytest.approx(np.concatenate([plate.vertices for plate in plates]))
+
+
+def test_the_record_holds_the_sheets(run, tmp_path):
+    recorded.save(tmp_path / "frames.h5", run)
+    loaded = recorded.load(tmp_path / "frames.h5")
+    assert list(loaded.joints.sheet) == [0, 0, 1, 1, 2, 2, -1, -1] and loaded.sheets.opening == run.sheets.opening
+    assert list(loaded.sheets.low) == [2, 2, 3] and list(loaded.sheets.high) == [3, 3, 5]
 
 
 def test_plan_numbers_the_nodes():

@@ -107,7 +107,7 @@ def test_a_long_run_stays_below_8_megabytes(tmp_path):
         setattr(run.elements, name, np.concatenate([getattr(run.elements, name)] * 28)[:count])
     for name in ("name", "kind", "storey", "side"):
         setattr(run.joints, name, (getattr(run.joints, name) * 37)[:294])
-    for name in ("a", "b", "anchor", "springs", "damaged", "strength"):
+    for name in ("a", "b", "anchor", "springs", "damaged", "strength", "sheet"):
         setattr(run.joints, name, np.concatenate([getattr(run.joints, name)] * 37)[:294])
     run.time = np.arange(times) * 0.05
     run.position = np.cumsum(random.normal(size=(times, count, 3)), axis=0) * 0.02

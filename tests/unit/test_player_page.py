@@ -295,6 +295,7 @@ def test_wall_sheets_are_counted_apart(driver, tmp_path):
     assert now.text.endswith("0 of 2 joints and 2 of 3 wall sheets broken, 1 partly")
     ask(driver, "player.seek(2.65)")
     assert now.text.endswith("1 of 2 joints and 3 of 3 wall sheets broken")
+    assert "wall partly broken" in driver.find_element("tag name", "body").text
     assert "joint or wall broken" in driver.find_element("tag name", "body").text
     assert driver.find_element("class name", "result").text.count("2 of 2 joints and 3 of 3 wall sheets broken") == 1
     assert errors(driver) == []

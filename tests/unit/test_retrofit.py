@@ -369,13 +369,25 @@ def test_runs_go_to_the_contenders(tmp_path, monkeypatch):
     assert results[0].words == "better"
     assert results[0].ratio == pytest.approx(0.5)
     assert results[-1].words == "a run failed: too large a step"
-    assert len(lines) == 2
-    assert "selection: 12 measures under 4 motions" in lines[0]
-    assert "runs left, about" in lines[0]
-    assert "test: 3 measures" in lines[1]
+    assert len(lines) == 3
+    assert lines[0].startswith("first run: 1 run of ") and "; 115 runs left, about" in lines[0]
+    assert "selection: 12 measures under 4 motions" in lines[1]
+    assert "runs left, about" in lines[1]
+    assert "test: 3 measures" in lines[2]
     page = overview.page("Title", ["About <b>"], results, race_of.house)
     assert page.count("<circle") == sum(len(one.runs) for one in race_of.entries) and "About &lt;b&gt;" in page
     assert overview.table_text(results).splitlines()[1].startswith(f"1,{names[0]},")
+
+
+@pytest.mark.parametrize("p, text", [(0.0, "&lt; 0.001"), (9.9e-4, "&lt; 0.001"), (0.001, "0.001"), (0.04, "0.040"),
+                                     (None, "-")])
+def test_a_small_p_is_below_a_limit(p, text):
+    """None is printed as 0.000."""
+    one = race.Entry(measures.Candidate("one", ""), seeds_of := {k: run(0.01, False) for k in ("seed1", "seed2")})
+    house = race.Entry(None, seeds_of)
+    result = race.Result(one, race.compare(one, house), p, "better")
+    page = overview.page("Title", [], [result], house)
+    assert f">{text}</td>" in page and "0.000" not in page
 
 
 @pytest.mark.parametrize("strength", [0.05, 0.3, 1.0, 3.0])

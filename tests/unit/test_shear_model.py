@@ -165,7 +165,8 @@ def test_a_graded_house_has_its_walls(level, tmp_path):
         before, after = (wall_joints(m, storey, direction) for m in (plain, model))
         assert len(after) == len(before)
         for is_counted, ratio in ((True, factor), (False, 1.0)):
-            old, new = ([j for j in joints if j.type.startswith("plywood") == is_counted] for joints in (before, after))
+            old, new = ([j for j in joints if j.sheet.type.startswith("plywood") == is_counted]
+                        for joints in (before, after))
             assert sum(j.kn for j in new) == pytest.approx(ratio * sum(j.kn for j in old))
             assert sum(j.strength for j in new) == pytest.approx(ratio * sum(j.strength for j in old))
 

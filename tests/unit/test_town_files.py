@@ -61,7 +61,7 @@ def test_events_of_a_turned_lot_are_in_the_directions_of_the_town(rotation, side
     """Sides and directions of the town that are nearest to those of the house."""
     events = [Event(1.0, Tilt("ns")), Event(2.0, SnowFallen("", "west", "roof")), Event(3.0, StructureFallen("shed"))]
     axes = Lot("", "A", 0, 0, rotation).axes
-    tilt, snow, fall = town_summary("x", {"lot": (sample_summary(events=events), axes)}, None).events
+    tilt, snow, fall = town_summary("x", {"lot": (sample_summary(events=events), axes, None)}, None).events
     assert (tilt.facts.direction, snow.facts.side, fall.facts.structure) == (direction, side, "shed")
     assert town_side("west+inside", axes) == f"{side}+inside"
 
@@ -139,3 +139,53 @@ def test_no_lots_and_no_file(town, tmp_path):
         load_town(tmp_path / "none.yaml")
     with pytest.raises(HouseError, match="1001 entries; at most 1000"):
         load_town(town("lots:\n" + "".join(f"  h{k}: {{house: A, x: {20 * k % 19000}, y: 0}}\n" for k in range(1001))))
+
+
+MAP = """{"type": "FeatureCollection", "features": [
+ {"type": "Feature", "properties": {"name": "west", "house": "A", "owner": "x"},
+  "geometry": {"type": "Point", "coordinates": [138.999, 37.3]}},
+ {"type": "Feature", "properties": {"name": "east", "house": "B", "rotation": 90, "snow": null},
+  "geometry": {"type": "Polygon", "coordinates": [[[139.0009, 37.2999], [139.0011, 37.2999], [139.0011, 37.3001],
+                                                   [139.0009, 37.3001], [139.0009, 37.2999]]]}}]}"""
+TABLE = "\ufefflot,house,x [m],y [m],rotation [degrees],snow\nwest,A,-88.6,0,,\neast,own.yaml,88.6,0.5,90,0.3\n\n"
+
+
+def test_lots_of_a_table(tmp_path):
+    """Alone, and beside a town file with a wave. Empty cells have the defaults."""
+    (tmp_path / "own.yaml").write_text("extends: B\nname: own\n")
+    (tmp_path / "harbour.csv").write_text(TABLE, encoding="utf-8")
+    (tmp_path / "town.yaml").write_text("wave: {velocity: 500, direction: 90}\nlots: harbour.csv\n")
+    alone, waved = load_town(tmp_path / "harbour.csv"), load_town(tmp_path / "town.yaml")
+    assert (alone.name, [lot.name for lot in alone.lots]) == ("harbour", ["west", "east"])
+    west, east = alone.lots
+    assert (west.x, west.rotation, west.snow) == (-88.6, 0, None)
+    assert (east.y, east.rotation, east.snow) == (0.5, 90, 0.3)
+    assert waved.lots == alone.lots and waved.delays() == [0, pytest.approx(177.2 / 500)]
+
+
+def test_lots_of_a_map(tmp_path):
+    """0.002 degrees of longitude at 37.3 degrees north are 177.3 m on WGS 84 (111.32 km cos 37.3 for a degree on the
+    sphere through the equator: 177.1 m); other properties are ignored.
+    """
+    (tmp_path / "harbour.geojson").write_text(MAP)
+    west, east = load_town(tmp_path / "harbour.geojson").lots
+    assert east.x - west.x == pytest.approx(177.3, abs=0.1) and west.x == pytest.approx(-east.x)
+    assert (west.y, east.y) == pytest.approx((0, 0), abs=1e-3) and (east.rotation, east.snow) == (90, None)
+
+
+@pytest.mark.parametrize("name, content, message", [
+    ("a.csv", "lot,house,x\n", "^a.csv:1: no column y"),
+    ("a.csv", "lot,house,x,y\nw,A,0,0\nw,A,30,0\n", "^a.csv:3: lot w: the name stands at a.csv:2 already"),
+    ("a.csv", "lot,house,x,y\nw,A,0,0\nv,A,far,0\n", "^a.csv:3: town.lots.v.x: "),
+    ("a.csv", "lot,house,x,y,colour\nw,A,0,0,red\n", "^a.csv:2: town.lots.w: unknown key 'colour'"),
+    ("a.csv", "", "^a.csv:1: no column lot"),
+    ("a.geojson", "{}", "^a.geojson: no GeoJSON of points"),
+    ("a.geojson", "[" * 9000, "^a.geojson: no GeoJSON of points"),
+    ("a.geojson", MAP.replace("138.999", "51234.5"), "^a.geojson: coordinates must be longitude"),
+    ("a.geojson", MAP.replace('"house": "A"', '"house": 7'), "^a.geojson: feature 1: town.lots.west.house"),
+    ("a.yaml", "lots: none.csv\n", "^a.yaml:1: town.lots: no file 'none.csv' beside it"),
+])
+def test_wrong_files_of_lots(tmp_path, name, content, message):
+    (tmp_path / name).write_text(content)
+    with pytest.raises(HouseError, match=message):
+        load_town(tmp_path / name)

@@ -9,13 +9,14 @@ import sys
 from pathlib import Path
 from xml.etree import ElementTree
 
+import frames_sample
 import numpy as np
 import pytest
 from file_limit import file_limit
 from small_frames import FACES, frames
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
-from timber_houses.pictures import vtk
+from timber_houses.pictures import panels, vtk
 from timber_houses.recording import frames as recorded
 
 
@@ -73,6 +74,23 @@ def test_elements(folder):
     assert [names.GetValue(k) for k in values(data.GetCellData(), "kind")[::6]] == made.elements.kind
     assert list(values(data.GetCellData(), "storey")[::6]) == [0, 1, 2]
     assert list(values(data.GetCellData(), "fixed")[::6]) == [1, 0, 0]
+
+
+def test_sheets(tmp_path):
+    """Whole, partly broken, broken at the last frame: plates of their columns, torn or not."""
+    run = frames_sample.walled_run()
+    run.broken[:] = 0
+    run.broken[-1] = [0, 0, 1, 0, 1, 1, 0, 0]
+    vtk.export(tmp_path, run, every=80)
+    (_, first), (_, last) = series(tmp_path, "sheets")
+    assert not values(first.GetCellData(), "state").any()
+    sheet, state = (values(last.GetCellData(), name) for name in ("sheet", "state"))
+    assert {*zip(sheet, state)} == {(0, 0), (1, 1), (2, 2)}
+    shown = [plate for plate in panels.plates(run) if plate.torn == (plate.sheet == 2)]
+    expected = [recorded.placed(plate.vertices, run.position[-1][plate.body], run.orientation[-1][plate.body])
+                for plate in shown]
+    assert np.allclose(points(last), np.concatenate(expected), atol=1e-5)
+    assert last.GetNumberOfPolys() == sum(len(plate.faces) for plate in shown)
 
 
 def test_joints(folder):

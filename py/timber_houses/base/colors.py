@@ -11,6 +11,8 @@ KINDS = {  # of elements; RGB in 0..1
     "roof": (0.35, 0.35, 0.40),
     "snow": (0.95, 0.97, 1.00),
 }
+SHEETS = {"whole": (0.86, 0.88, 0.80), "partly": (0.95, 0.76, 0.36), "broken": (0.90, 0.52, 0.30)}
+"""Of wall sheets, by state."""
 OTHER = (0.7, 0.7, 0.7)
 """For kinds of elements without a colour of their own."""
 BLUE, ORANGE, GREEN, SKY_BLUE, AMBER, PURPLE, YELLOW, GREY, INDIGO, WINE = (

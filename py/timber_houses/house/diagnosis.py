@@ -243,7 +243,8 @@ def _sheets(model, group):
     """(column, column, multiplier, quasi-bearing multiplier) of walls that count."""
     for joint in model.joints:
         if joint.kind == WALL_COLUMN and joint.group == group and not joint.broken:
-            yield model.element(joint.a), model.element(joint.b), joint.multiplier, joint.quasi_multiplier
+            sheet = joint.sheet
+            yield model.element(sheet.low), model.element(sheet.high), sheet.multiplier, sheet.quasi_multiplier
 
 
 def _braces(model, group):

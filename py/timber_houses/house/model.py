@@ -6,7 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..base.joint_kinds import WALL_COLUMN, WALL_KINDS
+from ..base.joint_kinds import WALL_COLUMN
 from .errors import HouseError
 from .geometry import polyhedron
 
@@ -73,6 +73,19 @@ class WallCycles:
     reload_power: float = 0.0
 
 
+@dataclass(frozen=True)
+class Sheet:
+    """A wall sheet. low, high: the columns of its bay (names); type: key of wall_types; opening: key of walls.OPENINGS;
+    multiplier, quasi_multiplier: of its bearing wall, of its panels, as the rules count them [-]"""
+
+    low: str
+    high: str
+    type: str
+    opening: str
+    multiplier: float = 0.0
+    quasi_multiplier: float = 0.0
+
+
 @dataclass(eq=False, kw_only=True)
 class JointSpec:
     """Joint of elements `a` and `b`: springs at the corners of their contact area (paper, 2.4), or one.
@@ -107,8 +120,7 @@ class JointSpec:
     side: frozenset = frozenset()
     end: str = ""        # columns and braces: 'top' or 'bottom' end of a
     group: str = ""
-    multiplier: float = 0.0  # of a sheet of a bearing wall, as the rules count it [-]
-    quasi_multiplier: float = 0.0  # of panels, as quasi-bearing wall [-]
+    sheet: Sheet | None = None  # of which it is a half
 
     def __repr__(self):
         return f"<JointSpec {self.name}: {self.kind}, {self.law}{', broken' if self.broken else ''}>"
@@ -173,7 +185,7 @@ class HouseModel:
                 "columns_by_storey": dict(Counter(f"{e.group} {e.storey}" for e in columns)), "braces": len(braces),
                 "walls": len({(j.a, j.b) for j in self.joints if j.kind == WALL_COLUMN}),
                 "braces_by_storey": dict(Counter(f"{e.group} {e.storey}" for e in braces)),
-                "joints": sum(j.kind not in WALL_KINDS for j in self.joints),
+                "joints": sum(j.sheet is None for j in self.joints),
                 "joints_by_kind": dict(Counter(j.kind for j in self.joints)),
                 "broken_by_kind": dict(Counter(j.kind for j in self.joints if j.broken)),
                 "mass_timber_free": sum(e.mass for e in self.elements if not e.fixed and e.kind != "snow"),

@@ -7,15 +7,17 @@ from pathlib import Path
 import numpy as np
 
 from ..base.errors import one_line
-from ..base.input_file import is_file
+from ..base.input_file import is_file, shown
 from .description import house_path, require_snow_depth
 from .errors import HouseError
 from .layout import MAX_SNOW, word
 from .limits import MAX_LOTS, MAX_NODES
 from .loader import require_house_file, text_of
-from .parser import parse_table
+from .lots import read_lots
+from .parser import Table, parse_table
 from .schema import MapOf, Number, Record, fail
 
+LOT_FILES = (".csv", ".geojson", ".json")
 FAR = 20_000.0
 """Largest coordinate of a lot. [m]"""
 LOT = Record({"house": word(), "x": Number("m", -FAR, FAR), "y": Number("m", -FAR, FAR),
@@ -84,11 +86,19 @@ class Town:
 
 
 def load_town(path):
-    """Town of a YAML file; house files are looked for beside it, too. Raises HouseError (one line, file:line)."""
+    """Town of a YAML file, whose `lots` may be in a CSV or GeoJSON file, or of such a file alone; house files are
+    looked for beside it, too. Raises HouseError (one line, file:line)."""
     path = Path(path)
     if not is_file(path):
         raise HouseError(f"{path}: no such regular file; give a town file")
-    table, _ = parse_table(text_of(path), path.name, MAX_NODES)
+    table = (Table({"lots": read_lots(path)}, f"{path.name}:1") if path.suffix.lower() in LOT_FILES
+             else parse_table(text_of(path), path.name, MAX_NODES)[0])
+    if isinstance(table.get("lots"), str):
+        beside = path.parent / table["lots"]
+        if beside.suffix.lower() not in LOT_FILES or not is_file(beside):
+            fail(table.at("lots"), "town.lots", f"no file {shown(table['lots'])} beside it that ends in"
+                 f" {', '.join(LOT_FILES)}")
+        table["lots"] = read_lots(beside)
     data = TOWN.check(table, f"{path.name}:1", "town")
     if not data["lots"]:
         fail(data.at("lots"), "town.lots", "a town needs at least one lot")

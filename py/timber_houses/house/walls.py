@@ -18,7 +18,7 @@ from ..base.joint_kinds import WALL_BEAM, WALL_COLUMN
 from .errors import HouseError
 from .loads import bay_length
 from .members import column_plan, line_name, nodes_on_line, require_column
-from .model import JointSpec, WallCycles
+from .model import JointSpec, Sheet, WallCycles
 from .structure import ACROSS
 from .wall_types import cycles, envelope, multiplier, quasi_multiplier
 
@@ -117,10 +117,10 @@ def _joints(bay, name, members, data, level):
     below, above = (_member_at(bay, members, top) for top in (False, True))
     table = data["wall_types"][name]
     beams, columns = (_values(bay, table, level, lever, height / lever) for lever in (height, bay.length))
-    common = dict(points=(low.centroid + high.centroid)[None] / 2, area=0.0, type=name, ks=0.0, per="spring",
+    common = dict(points=(low.centroid + high.centroid)[None] / 2, area=0.0, ks=0.0, per="spring",
                   storey=bay.low.storey, side=bay.side, group=bay.low.group,
                   initial_damping=data["law"]["damping_stiffness"] == "initial",
-                  **dict(zip(("multiplier", "quasi_multiplier"), bay.multipliers(table))))
+                  sheet=Sheet(bay.low.name, bay.high.name, name, bay.opening, *bay.multipliers(table)))
     return [
         JointSpec(a=below.name, b=above.name, normal=along / np.linalg.norm(along), kind=WALL_BEAM,
                   label=f"{label}.beams", **beams, **common),

@@ -2,3 +2,9 @@
 """Pictures, drawings and the player, made from a run's recording."""
 REPORT = ("report.html", "report.pdf")
 """Files of a report."""
+TOWN = MAP, PAGE = ("map.png", "town.html")
+"""Files of a town."""
+OWNER = {"en": "owner.en.html", "ja": "owner.ja.html"}
+"""{language: page for the owner of a house}"""
+VERDICTS = {"undamaged": "#009E73", "repairable": "#E69F00", "unsafe": "#D55E00", "collapsed": "#222222"}
+"""Colours of the verdicts."""

@@ -5,7 +5,8 @@ from functools import partial
 
 from ..base.notes import noted
 from ..recording import ensemble, frames
-from ..recording.summary import Summary
+from ..recording.summary import Summary, TownSummary
+from . import MAP
 
 END, CURVES, QUANTITIES, BANDS, PLAYER = "end_state", "history", "quantities", "ensemble", "player.html"
 SHEETS = ("front", "side")
@@ -20,11 +21,14 @@ def write(folder, path=None, pdf=False):
     Without OpenGL those that need none are written, with a note. Raises RunError when the frames cannot be read,
     OSError when a picture cannot be written.
     """
-    from . import figures, player, sheets
+    from . import figures, player, sheets, town_page
     from .renderer import NoOpenGL
 
     path, endings = path or folder / frames.NAME, ("png", "pdf") if pdf else ("png",)
     recorded = frames.load(path)
+    if isinstance(recorded.summary, TownSummary):
+        return [*figures.save(town_page.figure(recorded), (folder / MAP).with_suffix("")),
+                town_page.write(folder, recorded), player.make([(path, recorded)], folder / PLAYER)]
     pages = [(END, ("png",), partial(sheets.both_views, recorded, -1, sheets.END_DPI)),
              *((name, endings, page) for name, page in _pages(recorded, path.parent))]
     written, left_out = [], {}

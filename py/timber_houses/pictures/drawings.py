@@ -7,11 +7,10 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Ellipse, Patch, Polygon, Rectangle
 
 from ..base import colors
-from ..base.joint_kinds import WALL_COLUMN
 from ..house import weigh
 from ..house.weight import sentence
 from .figures import A4, heading, new_figure, save, stem_and_endings
-from .panels import panels_as_built
+from .panels import plates_as_built
 from .raster import Window, even_density, front_of, shade
 from .report_pictures import THICK, wedge
 from .style import default_style
@@ -64,6 +63,13 @@ def solid(element):
                  colors.KINDS.get(element.kind, colors.OTHER))
 
 
+def sheathing(model):
+    """(Solid, state) of the plates of wall sheets as built."""
+    plates, states = plates_as_built(model)
+    return [(Solid("sheet", plate.vertices, plate.faces, colors.SHEETS[states[plate.sheet]]), states[plate.sheet])
+            for plate in plates if plate.shows(states)]
+
+
 def describe(model):
     """Description, counts and weight of a house, in three lines."""
     counts = model.counts()
@@ -110,7 +116,7 @@ def draw_elevation(ax, view, solids, model, dpi):
     box = box_of(view, solids, [])
     window = Window(view, box, density(ax, box, dpi))
     fit(ax, window, dpi)
-    draw_view(ax, window, Snapshot(solids, panels=panels_as_built(model)), front_of(solids, view))
+    draw_view(ax, window, Snapshot(solids, sheathing=sheathing(model)), front_of(solids, view))
     ax.set_title(view.title, fontsize=9, loc="left")
     draw_ends(ax, view, 8)
     levels = (z for storeys in model.storey_levels.values() for pair in storeys.values() for z in pair)
@@ -143,9 +149,9 @@ def draw_plan(ax, model):
     for element in model.of_kind("brace"):
         if element.storey == 1:
             ax.add_patch(wedge(element.vertices))
-    for panel in panels_as_built(model):
-        if panel.storey == 1:
-            draw_wall(ax, panel)
+    for sheet in dict.fromkeys(joint.sheet for joint in model.joints if joint.sheet and joint.storey == 1):
+        start, end = (model.element(name).solid.centroid[:2] for name in (sheet.low, sheet.high))
+        draw_wall(ax, start, end, sheet.opening != "none")
     broken = [j.centre[:2] for j in model.joints if j.broken and j.storey == 1]
     frame_damage(ax, broken)
     for grid in model.grids.values():
@@ -172,12 +178,11 @@ def draw_outline(ax, element, **style):
     ax.add_patch(Rectangle(low, *(high - low), **style))
 
 
-def draw_wall(ax, panel):
-    """The sheathing of a bay seen from above: a filled band, or two lines where it has a window or a door."""
-    start, end = panel.corners[:2, :2]
+def draw_wall(ax, start, end, opened):
+    """The sheathing of a bay seen from above: a filled band, or two lines where it has a window or a door (opened)."""
     aside = WALL_WIDTH / 2 * np.array([start[1] - end[1], end[0] - start[0]]) / np.linalg.norm(end - start)
     ax.add_patch(Polygon([start + aside, end + aside, end - aside, start - aside], closed=True, edgecolor=WALL, lw=0.8,
-                         facecolor="white" if panel.opening else WALL, zorder=1 if panel.opening else 1.5))
+                         facecolor="white" if opened else WALL, zorder=1 if opened else 1.5))
 
 
 def finish_plan(ax, columns):
@@ -217,7 +222,7 @@ def legend(figure, solids, model):
                               label=f"column {100 * size:g} cm (plan)"))
     if any(e.storey == 1 for e in model.of_kind("brace")):
         entries.append(symbol(marker=">", markersize=7, color=colors.BLUE, label="brace (plan; thin end: foot)"))
-    if any(j.kind == WALL_COLUMN and j.storey == 1 for j in model.joints):
+    if any(j.sheet and j.storey == 1 for j in model.joints):
         entries.append(Patch(facecolor=WALL, edgecolor=WALL, label="wall (plan; open: window, door)"))
     if any(j.broken for j in model.joints):
         entries.append(symbol(marker="o", markersize=4, markerfacecolor="white", label="joint broken before the start"))

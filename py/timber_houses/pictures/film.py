@@ -14,7 +14,7 @@ from PIL import Image
 
 from ..base.atomic_write import written_whole
 from ..base.errors import RunError
-from ..recording.summary import collapse_time
+from ..recording.summary import TownSummary, collapse_time
 from . import camera
 from .caption import Caption, Strip
 from .key_times import first_shown, last_change
@@ -35,6 +35,12 @@ LONGEST = 36000
 """Largest number of pictures in a film. [-]"""
 
 
+MOST_DRAWN = 160_000
+"""Elements times pictures of a film that is made in half a minute in SMALL_SIZE on one processor. [-]"""
+SMALL_SIZE, SLOWEST_RATE = (960, 540), 4.0
+"""Of films of towns: size [pixel], lowest rate [1/s]."""
+
+
 @dataclass(frozen=True)
 class Format:
     """width, height [pixel]; rate [1/s]; speed, None: 1, and SLOW around the first fall; quality: of WebP, 0 to 100."""
@@ -44,6 +50,18 @@ class Format:
     rate: float = 30.0
     speed: float | None = None
     quality: int = 60
+
+
+def chosen_form(runs, size=None, rate=None, **others):
+    """Format with a size [pixel] and a rate [1/s] that are given; by default a town has smaller and fewer pictures."""
+    usual = Format()
+    if any(isinstance(run.summary, TownSummary) for run in runs):
+        span = max(map(last_change, runs)) - min(map(first_shown, runs))
+        fitting = MOST_DRAWN / (sum(len(run.shown) for run in runs) * max(span, 1.0))
+        usual = replace(usual, width=SMALL_SIZE[0], height=SMALL_SIZE[1],
+                        rate=min(usual.rate, max(SLOWEST_RATE, fitting)))
+    width, height = size or (usual.width, usual.height)
+    return Format(width, height, rate or usual.rate, **others)
 
 
 def write(path, runs, view="space", form=Format(), begin=None, end=None):

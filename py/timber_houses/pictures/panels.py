@@ -1,101 +1,160 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Sheathed walls in the front and side views: whole, partly broken, broken."""
-from dataclasses import dataclass, field
+"""Wall sheets in pictures: plates in the plane of a bay, each half fixed to a column. Those of a broken sheet are torn.
+
+Still views, films, the player and VTK draw these plates; sheets of one bay lie beside each other.
+"""
+from collections import Counter
+from dataclasses import dataclass, replace
+from functools import cache
 
 import numpy as np
-from matplotlib.patches import Polygon
 
-from ..base import colors
-from ..base.joint_kinds import WALL_COLUMN
-from ..recording.walls import state, wall_sheets
+from ..recording.frames import rotated
+from ..recording.walls import of_walls, sheet_states
 
-FACING = {(1, 0, 0): "east", (0, 1, 0): "north"}
-"""Outer walls that face the viewer: direction towards the viewer -> side."""
-FILL = "#d8c39a"
-"""Of a whole wall."""
-STYLES = {"whole": dict(facecolor=FILL, edgecolor=FILL, alpha=0.45, linewidth=0.0),
-          "partly": dict(facecolor=FILL, edgecolor=colors.AMBER, alpha=0.7, linewidth=1.0, hatch="//"),
-          "broken": dict(facecolor="none", edgecolor=colors.ORANGE, alpha=0.9, linewidth=0.8, hatch="x")}
-OPENINGS = {"window": (0.2, 0.8, 0.33, 0.78), "door": (0.2, 0.8, 0.0, 0.75)}
-"""Left, right, lower and upper edge of an opening as parts of its bay."""
-OPEN = dict(facecolor="#e8f1f8", edgecolor="#777777", linewidth=0.5)
-NAMES = {"whole": "wall", "partly": "wall partly broken", "broken": "wall broken"}
+THICKNESS, LAYER = 0.02, 0.03
+"""Of a plate; distance between the middles of plates of one bay. [m]"""
+OPENINGS = {"window": (0.2, 0.33, 0.78), "door": (0.2, 0.0, 0.75)}
+"""Distance of an opening from both columns, its lower and upper edge, as parts of the bay."""
+TEETH, TOOTH = (0.47, 0.36), 0.17
+"""Ends of the torn edge, distance between them, as parts of the bay."""
+MARKS = {"none": (0.25, 0.5), "window": (0.28, 0.165), "door": (0.28, 0.875)}
+"""Place of a sheet's mark, on its first half, as parts of the bay."""
+BOX = ((0, 1, 2, 3), (7, 6, 5, 4), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0))
+"""Faces of a prism of four sides: front, back, edges."""
 
 
 @dataclass
-class Panel:
-    """The wall of a bay.
-
-    corners  (4, 3) world, the ends of the axes of the bay's columns [m]
-    storey   from 1
-    sides    as 'north'
-    name     of the joint of a sheet
-    broken   of the joints of all its sheets
+class Plate:
+    """Half of a sheet. body: the column that carries it; vertices (n, 3): in the world before the first step, or in the
+    body frame [m]; torn: its form when the sheet is broken, else when it is not
     """
 
-    corners: np.ndarray
-    storey: int
-    sides: tuple
-    name: str
-    broken: list = field(default_factory=list)
+    sheet: int
+    body: int
+    torn: bool
+    vertices: np.ndarray
+    faces: list
 
-    @property
-    def state(self):
-        """A key of STYLES."""
-        return state(self.broken)
-
-    @property
-    def opening(self):
-        """A key of OPENINGS, or ''."""
-        return next((name for name in OPENINGS if f".{name}." in self.name), "")
-
-    def opening_corners(self):
-        """(4, 3) corners of its opening. [m]"""
-        left, right, low, high = OPENINGS[self.opening]
-        foot, other_foot, other_head, head = self.corners
-        at = [(left, low), (right, low), (right, high), (left, high)]
-        return np.array([(1 - u) * (1 - v) * foot + u * (1 - v) * other_foot + u * v * other_head + (1 - u) * v * head
-                         for u, v in at])
+    def shows(self, states):
+        """Whether it is drawn. states: of all sheets"""
+        return self.torn == (states[self.sheet] == "broken")
 
 
-def panels(frames, frame):
-    joints, broken, bays = frames.joints, frames.joint_states(frame) != "whole", {}
-    for halves in wall_sheets(joints):
-        k = next(k for k in halves if joints.kind[k] == WALL_COLUMN)
-        bay = joints.a[k], joints.b[k]
-        corners = bay_corners((frames.corners_at_start(column), frames.corners(frame, column)) for column in bay)
-        panel = Panel(corners, int(frames.elements.storey[bay[0]]), tuple(joints.side[k].split("+")), joints.name[k])
-        bays.setdefault(bay, panel).broken += list(broken[halves])
-    return list(bays.values())
+def plates(frames):
+    """Plates of a run, vertices in the body frames of their columns."""
+    return [replace(plate, vertices=_local(frames, plate.body, plate.vertices)) for plate in _plates(_bays(frames))]
 
 
-def panels_as_built(model):
-    """Panels of all walls of a HouseModel."""
-    bays = {}
+def plates_as_built(model):
+    """([Plate] in the world, states) of the sheets of a HouseModel."""
+    halves = {}
     for joint in model.joints:
-        if joint.kind == WALL_COLUMN:
-            columns = model.element(joint.a), model.element(joint.b)
-            corners = bay_corners((column.vertices, column.vertices) for column in columns)
-            panel = Panel(corners, columns[0].storey, tuple(joint.side), joint.name)
-            bays.setdefault((joint.a, joint.b), panel).broken.append(joint.broken)
-    return list(bays.values())
+        if joint.sheet:
+            halves.setdefault(joint.sheet, []).append(joint.broken)
+    number = {element.name: k for k, element in enumerate(model.elements)}
+    bays = [(number[sheet.low], number[sheet.high], bay_corners(*(model.element(name).vertices
+                                                                  for name in (sheet.low, sheet.high))), sheet.opening)
+            for sheet in halves]
+    return _plates(bays), ["broken" if all(broken) else "whole" for broken in halves.values()]
 
 
-def bay_corners(columns):
-    """(4, 3) ends of the axes of a bay's columns. columns: of each, corners (n, 3) before the first step and now [m]"""
-    (foot, head), (other_foot, other_head) = ((now[z < z.mean()].mean(0), now[z > z.mean()].mean(0))
-                                              for z, now in ((start[:, 2], now) for start, now in columns))
+def states(frames, frame):
+    """State of each sheet in a frame."""
+    return sheet_states(frames.joints, frames.joint_states(frame) != "whole")
+
+
+def mark_anchors(frames):
+    """((J,) bodies, (J, 3) places in their frames [m]) of the marks of joints: those of a sheet are on its plate."""
+    j = frames.joints
+    body, anchor = np.array(j.a), np.array(j.anchor, float)
+    places = [(low, _local(frames, low, _place(corners, *MARKS[opening])))
+              for low, _, corners, opening in _bays(frames)]
+    for k in np.flatnonzero(of_walls(j)):
+        body[k], anchor[k] = places[j.sheet[k]]
+    return body, anchor
+
+
+def mark_states(frames, frame):
+    """State of each joint's mark in a frame: of a sheet's first joint that of the sheet, of its second one 'whole'."""
+    shown, j = frames.joint_states(frame), frames.joints
+    walls = np.flatnonzero(of_walls(j))
+    first = walls[np.unique(np.asarray(j.sheet)[walls], return_index=True)[1]]
+    of_sheets = np.where(shown[first] == "before", "before", states(frames, frame))
+    shown[walls] = "whole"
+    shown[first] = of_sheets
+    return shown
+
+
+def bay_corners(low, high):
+    """(4, 3) ends of the axes of a bay's columns: foot and foot, head and head. low, high: their corners (n, 3) [m]"""
+    (foot, head), (other_foot, other_head) = ((c[c[:, 2] < c[:, 2].mean()].mean(0), c[c[:, 2] > c[:, 2].mean()].mean(0))
+                                              for c in (low, high))
     return np.array([foot, other_foot, other_head, head])
 
 
-def draw_panels(ax, view, shown):
-    """Panels of the outer wall that faces the viewer. view: View; shown: list of Panel."""
-    for panel in shown:
-        if FACING.get(tuple(view.toward)) in panel.sides:
-            ax.add_patch(_polygon(view, panel.corners, **STYLES[panel.state]))
-            if panel.opening and panel.state != "broken":
-                ax.add_patch(_polygon(view, panel.opening_corners(), **OPEN))
+def _bays(frames):
+    """[(low, high, corners, opening)] of the sheets of a run."""
+    s = frames.sheets
+    return [(int(low), int(high), bay_corners(frames.corners_at_start(low), frames.corners_at_start(high)), opening)
+            for low, high, opening in zip(s.low, s.high, s.opening)]
 
 
-def _polygon(view, corners, **style):
-    return Polygon(np.column_stack([corners @ view.right, corners @ view.up]), closed=True, zorder=4, **style)
+def _local(frames, body, places):
+    """Places in the world before the first step [m] in the frame of a body."""
+    e = frames.elements
+    return rotated(e.orientation[body] * (1, -1, -1, -1), places - e.position[body])
+
+
+def _plates(bays):
+    """Plates of sheets, vertices in the world. bays: as from `_bays`"""
+    of_bay, before, made = Counter(bay[:2] for bay in bays), Counter(), []
+    for sheet, (low, high, corners, opening) in enumerate(bays):
+        aside = LAYER * (before[low, high] - (of_bay[low, high] - 1) / 2)
+        before[low, high] += 1
+        for body, mirrored in ((low, False), (high, True)):
+            for torn in (False, True):
+                made.append(Plate(sheet, body, torn, *_solid(corners, opening, torn, mirrored, aside)))
+    return made
+
+
+def _cells(opening, torn):
+    """Quadrilaterals (4, 2) of a sheet's first half, as parts of the bay, counter-clockwise."""
+    if opening == "none":
+        strips = [(0.0, 0.5, 0.0, 1.0)]
+    else:
+        beside, low, high = OPENINGS[opening]
+        strips = [(0.0, beside, 0.0, 1.0), (beside, 0.5, 0.0, low), (beside, 0.5, high, 1.0)]
+    cells = []
+    for left, right, low, high in strips:
+        if low < high:
+            count = max(1, round((high - low) / TOOTH)) if torn and right == 0.5 else 1
+            levels = np.linspace(low, high, count + 1)
+            ends = [TEETH[k % 2] if torn and right == 0.5 else right for k in range(count + 1)]
+            cells += [[(left, v), (end, v), (next_end, next_v), (left, next_v)]
+                      for v, next_v, end, next_end in zip(levels, levels[1:], ends, ends[1:])]
+    return cells
+
+
+@cache
+def _outlines(opening, torn, mirrored):
+    """(C, 4, 2) cells of a half of a sheet, counter-clockwise, and the faces of the prisms over them."""
+    cells = np.array(_cells(opening, torn))
+    cells = cells[:, ::-1] * (-1, 1) + (1, 0) if mirrored else cells
+    return cells, [[8 * number + k for k in face] for number in range(len(cells)) for face in BOX]
+
+
+def _solid(corners, opening, torn, mirrored, aside):
+    """(vertices, faces) of a half. corners: of its bay; aside: of its middle plane [m]"""
+    normal = np.cross(corners[1] - corners[0], corners[3] - corners[0])
+    normal /= np.linalg.norm(normal)
+    cells, faces = _outlines(opening, torn, mirrored)
+    points = _place(corners, *np.moveaxis(cells[..., None], 2, 0))
+    sides = [points + (aside + side * THICKNESS / 2) * normal for side in (1, -1)]
+    return np.concatenate(sides, axis=1).reshape(-1, 3), faces
+
+
+def _place(corners, u, v):
+    """Place in a bay: parts of its length and height."""
+    foot, other_foot, other_head, head = corners
+    return (1 - u) * (1 - v) * foot + u * (1 - v) * other_foot + u * v * other_head + (1 - u) * v * head

@@ -28,6 +28,7 @@ from ..text import english, japanese
 from ..text.english import cut_line
 from .key_times import FIRST_DAMAGE, STRONGEST, first_shown, named, onset, strongest_shaking
 from .packing import pack, times
+from .panels import mark_anchors, plates
 from .provenance import provenance
 
 POLICY = "default-src 'none'; script-src '{script}'; style-src '{style}'; base-uri 'none'; form-action 'none'"
@@ -92,13 +93,15 @@ def info(run, largest):
         "result": (plain(english.sentence(run.summary)) if run.summary
                    else f"{'Not ended yet: the' if run.scenario else 'The'} first {run.time[-1]:.1f} s"),
         "japanese": ({"title": plain(japanese.title(run.summary)), "result": plain(japanese.result(run.summary)),
-                      "origin": plain(provenance(run, japanese))} if isinstance(run.summary, Summary) else None),
+                      "origin": plain(provenance(run, japanese))} if run.summary else None),
         "origin": plain(provenance(run)),
         "elements": [{"name": plain(name), "kind": plain(kind), "group": plain(group), "storey": int(storey),
                       **uplift(largest, name)}
                      for name, kind, group, storey in zip(e.name, e.kind, e.group, e.storey)],
         "joints": len(j.name),
         "sheets": wall_sheets(j),
+        "sheet_colors": {state: to_hex(color) for state, color in colors.SHEETS.items() if len(run.sheets.type)},
+        "plates": [{"body": plate.body, "sheet": plate.sheet, "torn": plate.torn} for plate in plates(run)],
         "joint_list": [
             {"kind": plain(kind), "place": plain(english.joint_place(kind, storey, side)), **forces(largest, name)}
             for name, kind, storey, side in zip(j.name, j.kind, j.storey, j.side)
@@ -199,13 +202,21 @@ def arrays(run):
     """{name: (values, step)} for the page; a row is a time, vertex, face, joint or sample."""
     shapes = {name: (values, 1e-4 if name == "vertices" else 1)
               for name, values in flat_shapes(run.elements.vertices, run.elements.faces).items()}
-    return {**shapes, **joints(run.joints), **series(run), **curves(run)}
+    return {**shapes, **sheathing(run), **joints(run), **series(run), **curves(run)}
 
 
-def joints(table):
-    return {"a": (table.a, 1), "b": (table.b, 1),
+def sheathing(run):
+    """Shapes of the plates of wall sheets, as those of elements."""
+    shown = plates(run)
+    shaped = flat_shapes([plate.vertices for plate in shown], [plate.faces for plate in shown]) if shown else {}
+    return {f"plate_{name}": (values, 1e-4 if name == "vertices" else 1) for name, values in shaped.items()}
+
+
+def joints(run):
+    table, (body, anchor) = run.joints, mark_anchors(run)
+    return {"a": (table.a, 1), "b": (table.b, 1), "body": (body, 1),
             "strength": (np.where(np.isfinite(table.strength), np.minimum(table.strength, 1e9), 0), 1),
-            "anchor": (table.anchor, 1e-4), "springs": (table.springs, 1), "damaged": (table.damaged, 1)}
+            "anchor": (anchor, 1e-4), "springs": (table.springs, 1), "damaged": (table.damaged, 1)}
 
 
 def series(run):

@@ -23,8 +23,7 @@ from ..recording import verdict
 from ..recording.failures import first_failures
 from ..text.english import counted, directed, mode_name, period_text, sentence, storey_name
 from ..text.lines import before, lines
-from . import REPORT, fonts, pushover, quantities, report_pictures
-from .panels import panels
+from . import REPORT, VERDICTS, fonts, pushover, quantities, report_pictures
 from .style import default_style
 
 PAGE, PDF = REPORT
@@ -33,7 +32,6 @@ JOINTS_SHOWN = 8
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 PATIENCE = 120.0
 """Longest wait for the browser. [s]"""
-COLORS = {"undamaged": "#009E73", "repairable": "#E69F00", "unsafe": "#D55E00", "collapsed": "#222222"}
 CAVEATS = (
     "Members are rigid: they neither bend nor split; only joints and contacts deform.",
     ("Snow steadies a braced house in this model, since its weight holds the floors down on the braces. In practice"
@@ -53,12 +51,17 @@ def write(folder):
     """Write report.html, and report.pdf if there is a browser, into a run's folder; returns the paths. RunError."""
     folder = Path(folder)
     results = quantities.read(folder)
-    frames = recording.load(folder / recording.NAME,
-                            missing="the report needs recorded frames: run without --no-frames")
-    if frames.summary is None:
-        raise RunError(f"{folder / recording.NAME}: of a run that has not ended; continue it with --resume")
-    write_text(folder / PAGE, page(frames, results))
+    write_text(folder / PAGE, page(recorded(folder), results))
     return [folder / PAGE, *print_pdf(folder / PAGE, folder / PDF)]
+
+
+def recorded(folder):
+    """Frames of the ended run in a folder. Raises RunError."""
+    path = folder / recording.NAME
+    frames = recording.load(path, missing="the report needs recorded frames: run without --no-frames")
+    if frames.summary is None:
+        raise RunError(f"{path}: of a run that has not ended; continue it with --resume")
+    return frames
 
 
 def page(frames, results):
@@ -68,7 +71,7 @@ def page(frames, results):
     return html(
         "report.html",
         title=frames.title,
-        color=COLORS[summary.verdict],
+        color=VERDICTS[summary.verdict],
         sentence=sentence(summary),
         house=house(frames, summary, failures),
         plans=picture(report_pictures.plans(frames, failures)),
@@ -113,7 +116,8 @@ def pushover_picture(summary):
 def house(frames, summary, failures):
     """Meaning of the marks in the plans, numbers of members, weight, natural periods, seismic index."""
     kinds = frames.elements.kind
-    counts = {"column": kinds.count("column"), "brace": kinds.count("brace"), "walled bay": len(panels(frames, 0))}
+    counts = {"column": kinds.count("column"), "brace": kinds.count("brace"),
+              "walled bay": len({*zip(frames.sheets.low, frames.sheets.high)})}
     (_, counts["joint"]), (_, counts["wall sheet"]) = summary.joints_and_sheets
     numbers = ", ".join(counted(count, kind) for kind, count in counts.items() if count)
     marks = {"blue: braces (thin end: foot)": counts["brace"],

@@ -9,7 +9,6 @@ from ..motion import GAL, response_spectrum
 from ..recording.history import DIRECTIONS
 from ..text.english import direction_name
 from .figures import heading_height, new_figure
-from .panels import panels
 from .sheets import Format, result, sheet
 from .style import default_style
 from .views import FRONT, SIDE
@@ -55,10 +54,10 @@ def draw_plan(axis, frames, storey):
                                      edgecolor="black", lw=0.5, zorder=3))
         else:
             axis.add_patch(wedge(corners))
-    for panel in panels(frames, 0):
-        if panel.storey == storey:
-            (x, y, _), (other_x, other_y, _) = panel.corners[:2]
-            axis.plot((x, other_x), (y, other_y), color=colors.GREEN, lw=2.2, ls=":" if panel.opening else "-",
+    sheets = frames.sheets
+    for low, high, opening in zip(sheets.low, sheets.high, sheets.opening):
+        if e.storey[low] == storey:
+            axis.plot(*e.position[[low, high], :2].T, color=colors.GREEN, lw=2.2, ls="-" if opening == "none" else ":",
                       solid_capstyle="butt", zorder=1.5)
     damaged = frames.joint_places(0)[np.asarray(frames.joints.damaged, bool) & (e.storey[frames.joints.a] == storey)]
     axis.plot(*damaged[:, :2].T, "o", ms=2.5, mfc="white", mec=colors.ORANGE, mew=0.8, zorder=4)

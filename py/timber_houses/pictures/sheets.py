@@ -2,13 +2,15 @@
 """Sheets of pictures of a run, made from its recorded frames: key times in one view, and the end in two views."""
 from dataclasses import dataclass
 
+import numpy as np
+
 from ..base import colors
-from ..base.joint_kinds import WALL_KINDS
+from ..recording.frames import placed, rotated
 from ..text.english import sentence
 from . import key_times
 from .figures import (A4, MARGIN, POINT_LETTERS, add_panel, drawable, fitting_size, footer, heading, heading_height,
                       new_figure)
-from .panels import panels
+from .panels import mark_anchors, mark_states, plates, states
 from .provenance import provenance
 from .raster import Window, even_density, front_of
 from .style import default_style
@@ -154,7 +156,7 @@ def both_views(frames, frame, dpi):
 
 
 def snapshot(frames, frame):
-    return Snapshot(solids(frames, frame), marks(frames, frame), panels(frames, frame))
+    return Snapshot(solids(frames, frame), marks(frames, frame), sheathing(frames, frame))
 
 
 def solids(frames, frame=None):
@@ -164,8 +166,16 @@ def solids(frames, frame=None):
     return [Solid(kind, corners, faces, colors.KINDS.get(kind, colors.OTHER)) for kind, corners, faces in parts]
 
 
+def sheathing(frames, frame):
+    """(Solid, state) of every plate of the wall sheets in a frame."""
+    shown, position, orientation = states(frames, frame), frames.position[frame], frames.orientation[frame]
+    return [(Solid("sheet", placed(plate.vertices, position[plate.body], orientation[plate.body]), plate.faces,
+                   colors.SHEETS[shown[plate.sheet]]), shown[plate.sheet])
+            for plate in plates(frames) if plate.shows(shown)]
+
+
 def marks(frames, frame):
-    """Mark of every broken or partly broken joint in a frame, without those of walls, which are panels."""
-    positions, kinds = frames.joint_places(frame), frames.joints.kind
-    return [Mark(positions[j], state) for j, state in enumerate(frames.joint_states(frame))
-            if state != "whole" and kinds[j] not in WALL_KINDS]
+    """Mark of every broken or partly broken joint in a frame, one of each wall sheet."""
+    body, anchor = mark_anchors(frames)
+    positions = np.asarray(frames.position[frame])[body] + rotated(np.asarray(frames.orientation[frame])[body], anchor)
+    return [Mark(position, state) for position, state in zip(positions, mark_states(frames, frame)) if state != "whole"]

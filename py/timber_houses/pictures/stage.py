@@ -5,6 +5,7 @@ from matplotlib.colors import to_rgb
 
 from ..base import colors
 from ..recording.frames import rotated
+from .panels import mark_anchors, mark_states, plates, states
 from .renderer import Bodies, Canvas, Topology, context, program, put
 
 SHADOW_PIXELS = 1024
@@ -39,10 +40,10 @@ class Stage:
         places = e.position[self.numbers, :2]
         self.middle = (places.min(0) + places.max(0)) / 2
         self.spread = max(1.0, np.ptp(places, axis=0).max() / HOUSE_SIZE)
-        self.body = np.repeat(self.numbers, [len(e.vertices[k]) for k in self.numbers])
-        self.vertices = np.concatenate([e.vertices[k] for k in self.numbers])
-        topology = Topology([e.faces[k] for k in self.numbers], [len(e.vertices[k]) for k in self.numbers])
-        self.bodies = Bodies(topology, [colors.KINDS.get(e.kind[k], colors.OTHER) for k in self.numbers])
+        self.plates, self.mark_anchors, self.sheets = plates(frames), mark_anchors(frames), None
+        self.elements = Layer([(k, e.vertices[k], e.faces[k], colors.KINDS.get(e.kind[k], colors.OTHER))
+                               for k in self.numbers])
+        self.sheathing = Layer([])
         self.canvas = Canvas(*size)
         gl = context()
         self.depth = gl.depth_texture((SHADOW_PIXELS, SHADOW_PIXELS))
@@ -58,18 +59,32 @@ class Stage:
     def picture(self, time):
         """Image (of Pillow) at a time [s]; positions are interpolated between frames, the ground moves as recorded."""
         position, orientation = placements(self.frames, time)
-        vertices = position[self.body] + rotated(orientation[self.body], self.vertices)
-        vertices = np.where(np.isfinite(vertices), vertices, 0.0)
-        self.bodies.put(vertices)
+        self._sheathe(time)
+        vertices = np.concatenate([layer.place(position, orientation) for layer in self._layers])
         places = vertices[:, :2] - vertices[:, 2:] * (self.light[:2] / self.light[2])  # of the shadows on the ground
         self._prepare(ground_at(self.frames.motion, time), np.concatenate([places.min(0), places.max(0)]))
         self._draw_shadow()
         self.canvas.begin(HORIZON)
-        self.bodies.render_faces()
+        for layer in self._layers:
+            layer.bodies.render_faces()
         self._draw_background()
-        self.bodies.render_edges()
+        for layer in self._layers:
+            layer.bodies.render_edges()
         self._draw_marks(position, orientation, time)
         return self.canvas.image()
+
+    @property
+    def _layers(self):
+        return self.elements, self.sheathing
+
+    def _sheathe(self, time):
+        """Take the plates that show the states of the wall sheets at a time [s]. self.sheets: the states shown"""
+        state = states(self.frames, frame_before(self.frames, time))
+        if state != self.sheets:
+            self.sheets = state
+            self.sheathing.bodies.release()
+            self.sheathing = Layer([(plate.body, plate.vertices, plate.faces, colors.SHEETS[state[plate.sheet]])
+                                    for plate in self.plates if plate.shows(state)])
 
     def _draw_background(self):
         """Sky, ground and the shadows on it, where no face is: their shading takes a third of the time of a picture."""
@@ -86,7 +101,8 @@ class Stage:
         self.shadow.use()
         self.shadow.clear(depth=1.0)
         context().enable_only(context().DEPTH_TEST | context().CULL_FACE)
-        self.bodies.shadow.render()
+        for layer in self._layers:
+            layer.bodies.shadow.render()
         self.depth.use(0)
 
     def _prepare(self, moved, shadows):
@@ -111,11 +127,12 @@ class Stage:
 
     def _draw_marks(self, position, orientation, time):
         """Marks of the damaged joints, pale where a member hides them."""
-        j, gl = self.frames.joints, context()
-        states = self.frames.joint_states(frame_before(self.frames, time))
-        numbers = np.flatnonzero(states != "whole")
-        places = position[j.a[numbers]] + rotated(orientation[j.a[numbers]], j.anchor[numbers])
-        points = (np.column_stack([places, [STATES[state] for state in states[numbers]]]) if len(numbers)
+        gl = context()
+        damage = mark_states(self.frames, frame_before(self.frames, time))
+        numbers = np.flatnonzero(damage != "whole")
+        body, anchor = (values[numbers] for values in self.mark_anchors)
+        places = position[body] + rotated(orientation[body], anchor)
+        points = (np.column_stack([places, [STATES[state] for state in damage[numbers]]]) if len(numbers)
                  else np.zeros((0, 4)))
         points = points[np.isfinite(points).all(1)].astype("f4")
         if not len(points):
@@ -129,6 +146,23 @@ class Stage:
             self.points.render(mode=gl.POINTS, vertices=len(points))
         gl.depth_func = "<"
         self.canvas.frame.depth_mask = True
+
+
+class Layer:
+    """Shapes that move with elements. shapes: [(element, vertices in its body frame [m], faces, colour)]"""
+
+    def __init__(self, shapes):
+        counts = [len(vertices) for _, vertices, _, _ in shapes]
+        self.body = np.repeat(np.array([body for body, _, _, _ in shapes], int), counts)
+        self.vertices = np.concatenate([np.empty((0, 3)), *(vertices for _, vertices, _, _ in shapes)])
+        self.bodies = Bodies(Topology([faces for _, _, faces, _ in shapes], counts), [color for *_, color in shapes])
+
+    def place(self, position, orientation):
+        """Put the shapes where the elements are; returns their vertices [m], 0 of removed elements."""
+        vertices = position[self.body] + rotated(orientation[self.body], self.vertices)
+        vertices = np.where(np.isfinite(vertices), vertices, 0.0)
+        self.bodies.put(vertices)
+        return vertices
 
 
 def frame_before(frames, time):

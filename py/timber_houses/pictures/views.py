@@ -11,8 +11,6 @@ from matplotlib.path import Path
 
 from ..base import colors
 from .figures import Pixels
-from .panels import NAMES as PANEL_NAMES
-from .panels import STYLES, draw_panels
 from .raster import Window, covered, shade
 
 
@@ -49,16 +47,16 @@ class View:
 
 @dataclass
 class Snapshot:
-    """A house at one time."""
+    """A house at one time. sheathing: [(Solid, state)] of the plates of wall sheets"""
 
     solids: list
     marks: list = field(default_factory=list)
-    panels: list = field(default_factory=list)
+    sheathing: list = field(default_factory=list)
 
     @property
     def states(self):
-        """Of its marks, and 'wall whole', 'wall partly', 'wall broken' of its panels: what the legend explains."""
-        return {mark.state for mark in self.marks} | {f"wall {panel.state}" for panel in self.panels}
+        """Of its marks, and 'wall whole', 'wall partly', 'wall broken' of its sheets: what the legend explains."""
+        return {mark.state for mark in self.marks} | {f"wall {state}" for _, state in self.sheathing}
 
 
 FRONT = View("front", "Front, seen from the east", (0, 1, 0), (1, 0, 0), "south", "north")
@@ -88,6 +86,7 @@ MARKERS = {  # share of MARK_SIZE and style; shapes differ, too, for print in gr
 }
 MARK_NAMES = {"broken": "joint broken (pale: hidden)", "partly": "joint partly broken",
               "before": "joint broken before the start"}
+SHEET_NAMES = {"whole": "wall", "partly": "wall partly broken", "broken": "wall broken"}
 LEGEND_COLUMNS = 6
 LEGEND_PLACE = 0.14
 """Height of its lower end. [inch]"""
@@ -120,10 +119,9 @@ def largest(solids, axis):
 def draw_view(ax, window, snapshot, front, mark_size=MARK_SIZE):
     """Shaded picture of a Snapshot in a Window with ground line and damaged joints. front: from `front_of` [m]"""
     box = window.box
-    picture, depth = shade(snapshot.solids, window, front)
+    picture, depth = shade([*snapshot.solids, *(plate for plate, _ in snapshot.sheathing)], window, front)
     ax.add_artist(Pixels(picture))
     ax.axhline(0, color="black", linewidth=0.16 * mark_size)
-    draw_panels(ax, window.view, snapshot.panels)
     draw_marks(ax, window, depth, snapshot.marks, mark_size)
     ax.set(xlim=box[:2], ylim=box[2:], xticks=[], yticks=[])
 
@@ -197,9 +195,11 @@ def legend(figure, solids, states, size):
     """Legend of colours and marks, at the bottom. states: of the marks; size: of the text, reduced to fit [pt]"""
     entries = kind_entries(solids)
     entries.append(Line2D([], [], color=INK, linewidth=0.9, linestyle="dashed", label="house at the start"))
-    entries += [Patch(label=name, **STYLES[state]) for state, name in PANEL_NAMES.items() if f"wall {state}" in states]
+    entries += [Patch(facecolor=colors.SHEETS[state], edgecolor=INK, linewidth=0.6, label=name)
+                for state, name in SHEET_NAMES.items() if f"wall {state}" in states]
+    names = MARK_NAMES | ({"broken": "joint or wall broken (pale: hidden)"} if "wall broken" in states else {})
     entries += [Line2D([], [], linestyle="none", label=name, **marker(state, 0.8 * size))
-                for state, name in MARK_NAMES.items() if state in states]
+                for state, name in names.items() if state in states]
     rows = -(-len(entries) // LEGEND_COLUMNS)
     place = (0.5, LEGEND_PLACE / figure.get_size_inches()[1])
     style = dict(handles=entries, loc="lower center", bbox_to_anchor=place, ncols=-(-len(entries) // rows),

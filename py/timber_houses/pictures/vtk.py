@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Recorded frames as VTK time series for ParaView: elements, joints and contact forces. Needs VTK (python3-vtk9), not
-YADE.
+"""Recorded frames as VTK time series for ParaView: elements, wall sheets, joints, contact forces. Needs VTK
+(python3-vtk9), not YADE.
 
 elements.pvd  polygons; cell data: element (number), kind (code, names in the field data kind_names), storey, fixed;
               point data: displacement since the start [m]
+sheets.pvd    polygons of the wall sheets; cell data: sheet (number), state (0 intact, 1 partly broken, 2 broken)
 joints.pvd    for each joint a point on either element and the line between them; point data: joint (number), kind,
               load [-] (largest spring force over strength), state (0 intact, 1 partly broken, 2 broken, 3 broken before
               the start)
@@ -17,7 +18,8 @@ from yade_timber.log import starts
 from ..base.atomic_write import write_bytes, write_text
 from ..base.errors import RunError
 from ..base.files import make_folder
-from ..recording.frames import rotated
+from ..recording.frames import placed, rotated
+from .panels import plates, states
 
 try:
     from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
@@ -35,7 +37,8 @@ def export(folder, frames, every=1):
     make_folder(folder)
     last = len(frames.time) - 1
     chosen = [(frames.time[k], k) for k in sorted({*range(0, last + 1, every), last})]
-    series = {"elements": (elements(frames), chosen), "joints": (joints(frames), chosen),
+    series = {"elements": (elements(frames), chosen), "sheets": (sheets(frames), chosen),
+              "joints": (joints(frames), chosen),
               "contacts": (contacts(frames), [(time, k) for k, time in enumerate(frames.contacts.time)])}
     return [write_series(folder, name, make, numbers) for name, (make, numbers) in series.items()]
 
@@ -75,6 +78,25 @@ def elements(frames):
         add(data.GetCellData(), element=owner, kind=code[owner], storey=e.storey[owner], fixed=e.fixed[owner])
         points = np.concatenate(frames.all_corners(frame))
         return put_points(data, points, displacement=points - start)
+
+    return of_frame
+
+
+def sheets(frames):
+    """Polygons of the plates of all wall sheets in a frame."""
+    made = plates(frames)
+
+    def of_frame(frame):
+        state = states(frames, frame)
+        shown = [plate for plate in made if plate.shows(state)]
+        first = starts([plate.vertices for plate in shown])
+        position, orientation = frames.position[frame], frames.orientation[frame]
+        data = vtkPolyData()
+        data.SetPolys(cells([np.array(face) + start for plate, start in zip(shown, first) for face in plate.faces]))
+        owner = np.array([plate.sheet for plate in shown for _ in plate.faces], int)
+        add(data.GetCellData(), sheet=owner, state=np.array([STATES[name] for name in state], int)[owner])
+        return put_points(data, np.concatenate([np.empty((0, 3)), *(
+            placed(plate.vertices, position[plate.body], orientation[plate.body]) for plate in shown)]))
 
     return of_frame
 

@@ -13,7 +13,10 @@ attributes   format, title (house and loads), scenario, model, version (of the p
              element_start[k + 1]
 /joints      name, kind, storey ('1', '2', ... or the structure), side ('north', 'north+east', ..., 'inside') (J,)
              strings; a, b (J,) element numbers; anchor (J, 3) [m]: mean of the spring points in the body frame of a;
-             springs (J,): their number; damaged (J,) bool: broken before the start; strength (J,) [N], may be infinite
+             springs (J,): their number; damaged (J,) bool: broken before the start; strength (J,) [N], may be infinite;
+             sheet (J,): number of the wall sheet of which it is a half, -1: of none
+/sheets      wall sheets: type (of the house file), opening ('none', 'window', 'door') (S,) strings; low, high (S,): the
+             columns (elements) of its bay
 /frames      time (F,) [s]; position (F, N, 3) [m] and orientation (F, N, 4) w, x, y, z, float32; load (F, J) float32:
              largest spring force by strength (of a joint that breaks as one: the sum); broken (F, J) uint8: number of
              broken springs
@@ -63,8 +66,10 @@ LAYOUT = {
     }),
     "joints": Group({
         **dict.fromkeys(("name", "kind", "storey", "side"), ("text", "J")), "a": ("whole", "J"), "b": ("whole", "J"),
-        "anchor": ("number", "J", 3), "springs": ("whole", "J"), "damaged": ("flag", "J"), "strength": ("number", "J")
+        "anchor": ("number", "J", 3), "springs": ("whole", "J"), "damaged": ("flag", "J"), "strength": ("number", "J"),
+        "sheet": ("whole", "J")
     }),
+    "sheets": Group({"type": ("text", "S"), "opening": ("text", "S"), "low": ("whole", "S"), "high": ("whole", "S")}),
     "frames": Group({
         "time": ("number", "F"), "position": ("number", "F", "N", 3), "orientation": ("number", "F", "N", 4),
         "load": ("number", "F", "J"), "broken": ("whole", "F", "J")
@@ -127,6 +132,24 @@ class Joints(_ShortRepr):
     springs: np.ndarray
     damaged: np.ndarray
     strength: np.ndarray
+    sheet: np.ndarray = None  # type: ignore[assignment]  # of no wall
+
+    def __post_init__(self):
+        self.sheet = np.full(len(self.name), -1) if self.sheet is None else self.sheet
+
+
+def _no_elements():
+    return np.empty(0, int)
+
+
+@dataclass(repr=False)
+class Sheets(_ShortRepr):
+    """As in /sheets."""
+
+    type: list = field(default_factory=list)
+    opening: list = field(default_factory=list)
+    low: np.ndarray = field(default_factory=_no_elements)
+    high: np.ndarray = field(default_factory=_no_elements)
 
 
 @dataclass(repr=False)
@@ -183,6 +206,7 @@ class Frames:
     history: History | None = None
     breaks: dict | None = None
     run: str = ""
+    sheets: Sheets = field(default_factory=Sheets)
 
     def __repr__(self):
         until = f"up to {self.time[-1]:g} s" if len(self.time) else "empty"
@@ -258,6 +282,7 @@ def save(path, frames):
         shapes = flat_shapes(frames.elements.vertices, frames.elements.faces)
         _save_group(file.create_group("elements"), plain | shapes)
         _save_group(file.create_group("joints"), vars(frames.joints))
+        _save_group(file.create_group("sheets"), vars(frames.sheets))
         _save_group(file.create_group("frames"), frame_log.series(frames))
         _save_contacts(file.create_group("contacts"), frames.contacts)
         if frames.motion:
@@ -325,7 +350,8 @@ def _check_numbers(frames):
     for name in ("vertices", "faces"):
         if len(getattr(e, name)) != n:
             raise ValueError(f"elements/{name}: of {len(getattr(e, name))} elements instead of {n}")
-    numbers = [("joints/a", j.a, n), ("joints/b", j.b, n),
+    numbers = [("joints/a", j.a, n), ("joints/b", j.b, n), ("joints/sheet", j.sheet + 1, len(frames.sheets.type) + 1),
+               ("sheets/low", frames.sheets.low, n), ("sheets/high", frames.sheets.high, n),
                *(("contacts/pair", pair, n) for pair in frames.contacts.pair)]
     numbers += [("elements/faces", face, len(vertices)) for faces, vertices in zip(e.faces, e.vertices)
                 for face in faces]
@@ -351,7 +377,8 @@ def _load(file):
     attributes = {name: str(file.attrs.get(name, "")) for name in ATTRIBUTES}
     series = {name: file["frames"][name][()] for name in ("time", "position", "orientation", "load", "broken")}
     loaded = Frames(**attributes, elements=_elements(_values(file["elements"])),
-                    joints=Joints(**_values(file["joints"])), **series, contacts=_load_contacts(file["contacts"]))
+                    joints=Joints(**_values(file["joints"])),
+                    sheets=Sheets(**_values(file["sheets"])), **series, contacts=_load_contacts(file["contacts"]))
     if "motion" in file:
         numbers = {name: float(file["motion"].attrs[name]) for name in ("dt", "start")}
         loaded.motion = Motion(**numbers, **_values(file["motion"]))

@@ -18,12 +18,23 @@ ANEW = "repeat the run with this version of the package"
 
 
 @dataclass(frozen=True)
+class LotResult:
+    """Of a lot of a town. outline: corners of its house's plan [m]; result: {language: sentence}"""
+
+    name: str
+    house: str
+    verdict: str
+    outline: list[list[float]]
+    result: dict[str, str]
+
+
+@dataclass(frozen=True)
 class TownSummary:
     """Of a town, for sentences and pictures. Times: of the first house that tilts or collapses; events have lots."""
 
     model: str
     verdict: str
-    verdicts: list[str]
+    lots: list[LotResult]
     collapsed: bool
     collapse_time_s: float | None
     tilt_time_s: float | None
@@ -32,6 +43,11 @@ class TownSummary:
     versions: Versions
     events: list[Event]
     ensemble: Ensemble | None = optional()
+
+    @property
+    def verdicts(self):
+        """Of the houses."""
+        return [lot.verdict for lot in self.lots]
 
 
 @dataclass(frozen=True)
@@ -82,6 +98,7 @@ class Summary:
     verdict: str
     sentence: str
     made_from: dict
+    lot: str | None = optional()
     ensemble: Ensemble | None = optional()
     column_drift: ColumnDrifts | None = optional()
 
@@ -172,7 +189,7 @@ def _largest(drifts):
 def parse(text):
     """Summary or TownSummary of a text of JSON. Raises ValueError."""
     entries = json.loads(text)
-    kind = TownSummary if isinstance(entries, dict) and "verdicts" in entries else Summary
+    kind = TownSummary if isinstance(entries, dict) and "lots" in entries else Summary
     summary = decode(kind, entries, "summary")
     if kind is Summary and not (summary.structures and summary.collapsed == (summary.collapse_time_s is not None)):
         raise ValueError("summary: no structures, or a collapse without its time")

@@ -19,14 +19,14 @@ SIDES = {"east": (1, 0), "north": (0, 1), "west": (-1, 0), "south": (0, -1)}
 
 
 def summary(name, results, record):
-    """TownSummary. results: {name of a lot: (its Summary, (3, 3) axes of the house)}; record: Record of the motion that
-    reaches the town
+    """TownSummary. results: {name of a lot: (its Summary, (3, 3) axes of the house, LotResult)}; record: Record of the
+    motion that reaches the town
     """
-    events = [replace(event, facts=_in_town(event.facts, axes), lot=lot) for lot, (one, axes) in results.items()
+    events = [replace(event, facts=_in_town(event.facts, axes), lot=lot) for lot, (one, axes, _) in results.items()
               for event in one.events if event.kind in SHOWN]
-    lots = [one for one, _ in results.values()]
-    verdicts = [lot.verdict for lot in lots]
-    return TownSummary(model=name, verdict=max(verdicts, key=verdict.STATES.index), verdicts=verdicts,
+    lots = [one for one, *_ in results.values()]
+    return TownSummary(model=name, verdict=max((lot.verdict for lot in lots), key=verdict.STATES.index),
+                       lots=[result for *_, result in results.values()],
                        collapsed=any(lot.collapsed for lot in lots),
                        collapse_time_s=min((lot.collapse_time_s for lot in lots if lot.collapsed), default=None),
                        tilt_time_s=min((lot.tilt_time_s for lot in lots if lot.tilt_time_s is not None), default=None),
@@ -51,9 +51,10 @@ def town_side(side, axes):
     return "+".join(nearest(word) if word in SIDES else word for word in side.split("+"))
 
 
-def town_frames(name, lots, record):
-    """Frames of a town without grounds and contacts. lots: (name, (3, 3) axes of the house, (3,) place [m], Frames);
-    record: as in `summary`"""
+def town_frames(summary, lots):
+    """Frames of a town without grounds and contacts. summary: TownSummary; lots: (name, (3, 3) axes of the house, (3,)
+    place [m], Frames)"""
+    name = summary.model
     placed = [_Lot(*lot) for lot in lots]
     longest = max((lot.run for lot in placed), key=lambda run: len(run.time))
     count = sum(len(lot.kept) for lot in placed)
@@ -61,14 +62,15 @@ def town_frames(name, lots, record):
     numbers = sorted({*range(0, len(longest.time), stride), len(longest.time) - 1})
     offsets = frames.starts([lot.kept for lot in placed])
     first_joints = frames.starts([lot.run.joints.name for lot in placed])
-    town = frames.Frames(f"Town {name}", name, name, longest.version, _elements(placed), _joints(placed, offsets))
+    town = frames.Frames(f"Town {name}", name, name, longest.version, _elements(placed), _joints(placed, offsets),
+                         sheets=_sheets(placed, offsets))
     town.time = [longest.time[k] for k in numbers]
     for k in numbers:
         states = [lot.state(k) for lot in placed]
         for key, values in zip(("position", "orientation", "load", "broken"), map(np.concatenate, zip(*states))):
             getattr(town, key).append(values)
     town.motion = _motion(placed)
-    town.summary = summary(name, {lot.name: (lot.run.summary, lot.axes) for lot in placed}, record)
+    town.summary = summary
     town.history = History(("time [s]",), np.empty((0, 1)))
     town.breaks = _breaks(placed, first_joints)
     return town
@@ -117,16 +119,29 @@ def _elements(lots):
 def _joints(lots, offsets):
     """Joints with the element numbers of the town. offsets: number of the first element of each lot"""
     parts = [lot.run.joints for lot in lots]
-    ends = {key: [np.searchsorted(lot.kept, getattr(j, key)) + offset for lot, j, offset in zip(lots, parts, offsets)]
-            for key in ("a", "b")}
+    first_sheets = frames.starts([lot.run.sheets.type for lot in lots])
     return frames.Joints(
         name=[f"{lot.name}.{name}" for lot in lots for name in lot.run.joints.name],
         **{key: [value for j in parts for value in getattr(j, key)] for key in ("kind", "storey")},
         side=[town_side(side, lot.axes) for lot, j in zip(lots, parts) for side in j.side],
-        **{key: np.concatenate(values).astype("i4") for key, values in ends.items()},
+        **{key: _numbers(lots, parts, key, offsets) for key in ("a", "b")},
+        sheet=np.concatenate([np.where(j.sheet < 0, -1, j.sheet + first) for j, first in zip(parts, first_sheets)]),
         **{key: np.concatenate([getattr(j, key) for j in parts])
            for key in ("anchor", "springs", "damaged", "strength")},
     )
+
+
+def _sheets(lots, offsets):
+    """Sheets with the element numbers of the town."""
+    parts = [lot.run.sheets for lot in lots]
+    return frames.Sheets(*([value for part in parts for value in getattr(part, key)] for key in ("type", "opening")),
+                         **{key: _numbers(lots, parts, key, offsets) for key in ("low", "high")})
+
+
+def _numbers(lots, parts, key, offsets):
+    """Element numbers of the lots' tables as those of the town."""
+    return np.concatenate([np.searchsorted(lot.kept, getattr(part, key)) + offset
+                           for lot, part, offset in zip(lots, parts, offsets)]).astype("i4")
 
 
 def _motion(lots):

@@ -2,24 +2,22 @@
 """Wall sheets among the joints: two joints of one spring each, broken when both are, partly when one is."""
 import numpy as np
 
-from ..base.joint_kinds import WALL_KINDS
-
 
 def of_walls(joints):
     """(J,) bool: joints that are halves of wall sheets. joints: frames.Joints"""
-    return np.array([kind in WALL_KINDS for kind in joints.kind], bool)
+    return np.asarray(joints.sheet) >= 0
 
 
 def wall_sheets(joints):
-    """[[numbers of the joints]] of each wall sheet; their names differ in the last part. joints: frames.Joints"""
-    sheets = {}
+    """[[numbers of the joints]] of each wall sheet. joints: frames.Joints"""
+    sheets = [[] for _ in range(int(np.max(joints.sheet, initial=-1)) + 1)]
     for k in np.flatnonzero(of_walls(joints)):
-        sheets.setdefault(joints.name[k].rpartition(".")[0], []).append(int(k))
-    return list(sheets.values())
+        sheets[joints.sheet[k]].append(int(k))
+    return sheets
 
 
 def state(broken):
-    """'broken' when all joints of a sheet or bay are, 'partly' when some are, else 'whole'. broken: bool of each"""
+    """'broken' when all joints of a sheet are, 'partly' when some are, else 'whole'. broken: bool of each"""
     return "broken" if all(broken) else "partly" if any(broken) else "whole"
 
 

@@ -46,11 +46,25 @@ def describe_elements(model):
 
 def describe_joints(model):
     """frames.Joints of the scene."""
+    sheets = sheet_numbers(model)
     specs, joints = model.joints, list(find_engine(yw.JointEngine).joints)
     described = record.describe_joints(joints, range(len(model.elements)))
     described["damaged"] = np.array([s.broken for s in specs], bool)  # of a resumed run, too
+    described["sheet"] = np.array([sheets.get(s.sheet, -1) for s in specs], "i4")
     return frames.Joints(**described, storey=[storey_of(s, model) for s in specs],
                          side=["+".join(sides_of(s)) for s in specs])
+
+
+def describe_sheets(model):
+    """frames.Sheets of the house."""
+    number, sheets = element_numbers(model), list(sheet_numbers(model))
+    ends = (np.array([number[getattr(sheet, end)] for sheet in sheets], "i4") for end in ("low", "high"))
+    return frames.Sheets([sheet.type for sheet in sheets], [sheet.opening for sheet in sheets], *ends)
+
+
+def sheet_numbers(model):
+    """{Sheet: its number}, in the order of the joints."""
+    return {sheet: k for k, sheet in enumerate(dict.fromkeys(joint.sheet for joint in model.joints if joint.sheet))}
 
 
 def describe_levels(model):
@@ -96,7 +110,7 @@ def sides_of(joint):
 
 def cause_of(entry, model):
     """'tension', 'compression' or 'shear' of a JointBreak; of a wall 'shear': its signs are directions of its drift."""
-    return "shear" if model.joints[entry.joint].ks == 0 else entry.cause
+    return "shear" if model.joints[entry.joint].sheet else entry.cause
 
 
 def break_row(entry, model):

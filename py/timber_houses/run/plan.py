@@ -67,4 +67,4 @@ def _lot(options, lot, motion, delay, last):
     snow = options.snow if lot.snow is None else lot.snow
     own = replace(options, name=f"{options.title}.{lot.name}", house=lot.house, snow=snow,
                   out=options.folder / "lots" / lot.name, no_views=True, quiet=True)
-    return _scenario(own, motion and in_axes(motion, lot.axes), delay, last), own
+    return replace(_scenario(own, motion and in_axes(motion, lot.axes), delay, last), lot=lot.name), own

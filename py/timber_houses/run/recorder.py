@@ -25,7 +25,8 @@ class Recorder:
         elements, joints = observer.describe_elements(model), observer.describe_joints(model)
         version = observer.versions()["package"]
         self.frames = frames.Frames(title, scenario.name, model.name, version, elements, joints,
-                                    motion=observer.describe_motion(), run=run)
+                                    motion=observer.describe_motion(), run=run,
+                                    sheets=observer.describe_sheets(model))
         self.model, self.path, self.log, self.times = model, path, AppendLog(path.with_name(frame_log.NAME), run), []
         self.described = False  # whether the file holds elements and joints of this run
 

@@ -12,10 +12,10 @@ from yade_timber.scene.export import export_scene
 
 from ..base.atomic_write import remove, written_whole
 from ..base.errors import RunError, os_errors
-from ..pictures import REPORT, all_pictures
+from ..pictures import OWNER, REPORT, TOWN, all_pictures
 from ..recording import ensemble, frame_log, frames
 from ..scene.scenario import build
-from ..text.english import loads, sentence
+from ..text.english import house_name, loads, sentence
 from . import checkpoint, quantities, samples, summary
 from .identity import identity, made_from, of_values
 from .observer import Observer
@@ -280,7 +280,8 @@ def explain_writing(options):
 def clear(options, *more):
     """Remove results of an earlier run or town and the files `more`, which are none of this run. Raises RunError."""
     with explain_removal(options):
-        for name in (*summary.NAMES, *all_pictures.NAMES, *REPORT, *ensemble.NAMES, HOUSES, *more):
+        pictures = (*all_pictures.NAMES, *REPORT, *TOWN, *OWNER.values())
+        for name in (*summary.NAMES, *pictures, *ensemble.NAMES, HOUSES, *more):
             remove(options.folder / name)
 
 
@@ -297,4 +298,4 @@ def explain_removal(options):
 def title(scenario, model):
     """Title of the pictures: house and loads."""
     damped = "" if scenario.joint_damping is None else f", joint damping {scenario.joint_damping:g}"
-    return f"House {model.name}: {loads(scenario.motion is not None, scenario.snow_depth)}{damped}"
+    return f"{house_name(model.name, scenario.lot)}: {loads(scenario.motion is not None, scenario.snow_depth)}{damped}"

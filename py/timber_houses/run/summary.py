@@ -47,7 +47,8 @@ def summary(scenario, observed, tables, wall_s, made_from, cut_off=None):
     energy = (energy_balance(queries.energy(), created) if cut_off is None
               else energy_balance(last_energies(history), _finite(created)))
     draft = Summary(
-        scenario=scenario.name, model=model.name, earthquake=scenario.motion is not None, snow=scenario.snow_depth > 0,
+        scenario=scenario.name, lot=scenario.lot, model=model.name,
+        earthquake=scenario.motion is not None, snow=scenario.snow_depth > 0,
         snow_depth_m=scenario.snow_depth, snow_mass_kg=model.counts()["mass_snow"], weight=decode(Weight, weigh(model)),
         diagnosis=decode(Diagnosis, {**diagnose(model), "disagreement": ""}), joint_damping=scenario.joint_damping,
         walls=Walls(level=model.law["wall_level"], other=scenario.other_walls) if model.law["wall_level"] else None,

@@ -17,9 +17,11 @@ from ..base.lock import prepare_folder
 from ..base.processors import processors
 from ..base.table import csv_text
 from ..house.town import check_places
-from ..pictures import all_pictures
+from ..pictures import all_pictures, owner
 from ..recording import frames
 from ..recording import town as recording
+from ..recording.summary import LotResult
+from ..text import japanese
 from ..text.english import sentence
 from .progress import Bar
 from .runner import (HOUSES, RECORDED, STATE, Interrupted, PhysicsError, Run, Stoppable, clear, explain_removal,
@@ -119,8 +121,7 @@ class TownRun(Stoppable):
         for lot, run in self.lots:
             self.options.say(f"{lot.name}: {sentence(run.summary)}")
         written = self._results()
-        results = {lot.name: (run.summary, lot.axes) for lot, run in self.lots}
-        self.options.say(sentence(recording.summary(self.town.name, results, self.record)))
+        self.options.say(sentence(self.summary))
         self.options.say("written: " + ", ".join(map(str, [*written, self.options.folder / "lots"])))
         faults = [f"lot {lot.name}: {run.fault}" for lot, run in self.lots if run.fault]
         if faults:
@@ -135,8 +136,18 @@ class TownRun(Stoppable):
                 return written
             recorded = [(lot.name, lot.axes, lot.origin(run.model), run.frames) for lot, run in self.lots]
             written.append(folder / frames.NAME)
-            frames.save(written[-1], recording.town_frames(self.town.name, recorded, self.record))
-            return written + (all_pictures.write(folder) if self.options.views else [])
+            frames.save(written[-1], recording.town_frames(self.summary, recorded))
+            if self.options.views:
+                written += all_pictures.write(folder)
+                for _, run in self.lots:
+                    owner.write(run.options.folder, run.frames)
+            return written
+
+    @property
+    def summary(self):
+        """TownSummary."""
+        results = {lot.name: (run.summary, lot.axes, result_of(lot, run)) for lot, run in self.lots}
+        return recording.summary(self.town.name, results, self.record)
 
     def table(self):
         rows = []
@@ -155,6 +166,13 @@ COLUMNS = ("lot", "house", "x [m]", "y [m]", "rotation [degrees]", "snow [m]", "
            "peak drift [-]", "residual drift [-]", "tilt [s]", "collapse [s]", "broken joints", "joints",
            "broken wall sheets", "wall sheets", "computing time [s]", "sentence")
 """Of houses.csv."""
+
+
+def result_of(lot, run):
+    """LotResult of a Lot and its Run."""
+    outline = lot.outline(run.model).round(3).tolist()
+    result = {"en": sentence(run.summary), "ja": japanese.result(run.summary)}
+    return LotResult(lot.name, run.summary.model, run.summary.verdict, outline, result)
 
 
 @contextmanager

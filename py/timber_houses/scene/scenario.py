@@ -32,7 +32,8 @@ class Scenario:
     scale: factor on the motion [-]; delay: time at which it begins [s]; dt, duration [s]; until_collapse: whether a
     collapse ends the run; joint_damping: damping ratio of sway and joints [-], wall_level: of walls of a rated
     multiplier, None for both: the house's own; disturb: seed of the house's disturbance, None: none; options: of
-    `engines.engines`; record, other_walls: of the summary, on the motion and on walls of the other level.
+    `engines.engines`; record, other_walls: of the summary, on the motion and on walls of the other level; lot: of a
+    town.
     """
 
     name: str
@@ -50,6 +51,7 @@ class Scenario:
     options: dict = field(default_factory=dict)
     record: object = None
     other_walls: object = None
+    lot: str | None = None
 
     def build_model(self):
         """HouseModel of the run. Raises HouseError."""

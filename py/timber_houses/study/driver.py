@@ -29,6 +29,7 @@ from ..recording.summary import NAME as SUMMARY
 from ..recording.summary import Summary
 from ..run.identity import made_from
 from ..run.options import RunOptions
+from ..text.english import counted
 
 END, LOG = "run.json", "run.log"
 DRIVER = ".driver"
@@ -130,11 +131,21 @@ def _run_all(tasks, scripts, jobs, report):
             for process in [process for process in running if process.has_ended()]:
                 running.remove(process)
                 ended += 1
-                report(f"[{ended}/{len(tasks)}] {process.task.folder}: {process.outcome()}")
+                outcome = process.outcome()
+                report(f"[{ended}/{len(tasks)}] {process.task.folder}: {outcome}")
+                if ended == 1 and waiting and outcome.startswith("done"):
+                    left = about(process.age * (len(tasks) - 1) / jobs)
+                    report(f"{counted(len(tasks) - 1, 'other run')} as long as the first: {left}, {jobs} at a time")
             time.sleep(POLL if running else 0)
     finally:
         _stop(running)
         signal.signal(signal.SIGTERM, previous)
+
+
+def about(seconds):
+    """'about 45 s', 'about 12 min', 'about 3.5 h'."""
+    return (f"about {seconds:.0f} s" if seconds < 90 else f"about {seconds / 60:.0f} min" if seconds < 5400
+            else f"about {seconds / 3600:.1f} h")
 
 
 def _stop(processes):
@@ -166,6 +177,11 @@ class _Process:
             self.child = subprocess.Popen(arguments, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
                                           start_new_session=True, env={**os.environ, "OMP_NUM_THREADS": "1"})
 
+    @property
+    def age(self):
+        """Time since it was started. [s]"""
+        return time.monotonic() - self.start
+
     def has_ended(self):
         return self.child is None or self.child.poll() is not None
 
@@ -185,7 +201,7 @@ class _Process:
         if error:
             return f"failed: {error}"
         again = " again (other options, files or package)" if self.outdated else ""
-        return f"done{again} in {time.monotonic() - self.start:.0f} s"
+        return f"done{again} in {self.age:.0f} s"
 
     def _error(self):
         """Error message of the run, or None."""

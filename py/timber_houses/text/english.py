@@ -38,7 +38,12 @@ def sentence(summary):
         return town(summary)
     parts = (outcome, other_walls, weight, residual, structures, joints, columns, snow, record, early, unconverged)
     text = "; ".join(filter(None, (part(summary) for part in parts)))
-    return f"{cut_off(summary)}{ensemble(summary)}House {summary.model} {text}"
+    return f"{cut_off(summary)}{ensemble(summary)}{house_name(summary.model, summary.lot)} {text}"
+
+
+def house_name(model, lot):
+    """'House A', of a town 'Lot corner (house A)'. lot: its name, or None"""
+    return f"House {model}" if lot is None else f"Lot {lot} (house {model})"
 
 
 def cut_off(summary):
@@ -325,3 +330,16 @@ def cut_line(text, most=LONGEST_TEXT):
     """A text from data on one line, cut to a number of letters."""
     line = " ".join(str(text)[: 4 * most].split())
     return line if len(line) <= most else line[: most - 1] + "…"
+
+
+# --- page for the owner of a house ------------------------------------------------------------------------------------
+
+MEANING = {"undamaged": "No damage that needs repair is expected.",
+           "repairable": "Damage that can be repaired: finishes crack, joints loosen. Have the house examined.",
+           "unsafe": "Nobody may enter the house before an engineer has examined it.",
+           "collapsed": "A storey comes down: people inside are in danger of their lives."}
+"""Of the verdicts."""
+OUTCOMES = {state: state for state in verdict.STATES}
+OWNER = {"start": "At the start", "end": "At the end", "events": "What happens", "seconds": "s",
+         "note": "A computed example of one earthquake. It certifies no house: ask an engineer."}
+"""Labels of the page."""

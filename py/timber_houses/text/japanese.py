@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Summaries and events in Japanese, for the player. Functions, numbers and names are the same as in English."""
-from ..recording.verdict import COLLAPSED, DAMAGE, TILT, UNDAMAGED, passed
+from ..recording.summary import TownSummary
+from ..recording.verdict import COLLAPSED, DAMAGE, STATES, TILT, UNDAMAGED, passed
 from . import english
 from .english import SMALL, ratio
 
@@ -14,13 +15,21 @@ LEVELS = {"damage limit": "損傷の始まり", "safety limit": "大きな損傷
 
 
 def title(summary):
-    """'住宅 C2：地震、積雪 5.6 t'."""
+    """'住宅 C2：地震、積雪 5.6 t', of a town '区画 corner（住宅 C2）：地震'; of the town itself '町 harbour'."""
+    if isinstance(summary, TownSummary):
+        return f"町 {summary.model}"
+    house = f"住宅 {summary.model}" if summary.lot is None else f"区画 {summary.lot}（住宅 {summary.model}）"
     loads = ["地震"] * summary.earthquake + [f"積雪 {summary.snow_mass_kg / 1000:.1f} t"] * summary.snow
-    return f"住宅 {summary.model}：{'、'.join(loads) or '自重のみ'}"
+    return f"{house}：{'、'.join(loads) or '自重のみ'}"
 
 
 def result(summary):
-    """Outcome: place in an ensemble, verdict, peak and residual drift, other structures, joints, columns, snow."""
+    """Outcome: place in an ensemble, verdict, peak and residual drift, other structures, joints, columns, snow; of a
+    town its houses by verdict."""
+    if isinstance(summary, TownSummary):
+        counts = ((state, summary.verdicts.count(state)) for state in STATES)
+        houses = "、".join(f"{OUTCOMES[state]} {count} 棟" for state, count in counts if count)
+        return f"{len(summary.lots)} 棟のうち{houses}。"
     parts = [cut_off(summary), outcome(summary), other_walls(summary), weight(summary), moving(summary),
              *structures(summary), joints(summary), columns(summary), snow(summary), record(summary), early(summary),
              unconverged(summary)]
@@ -189,3 +198,13 @@ def structure_name(name):
 def below(drift):
     """A drift in the notation of engineers: 1/85, 1/1000 未満."""
     return f"{ratio(drift, '')}{' 未満' if drift < SMALL else ''}"
+
+
+# --- page for the owner of a house ------------------------------------------------------------------------------------
+
+MEANING = {"undamaged": "補修が必要な被害は予想されません。",
+           "repairable": "補修できる被害（仕上げのひび割れ、接合部のゆるみ）です。専門家の点検を受けてください。",
+           "unsafe": "専門家が調査するまで、立ち入らないでください。",
+           "collapsed": "階がつぶれ、中にいる人の命に危険があります。"}
+OWNER = {"start": "はじめ", "end": "終わり", "events": "できごと", "seconds": "秒",
+         "note": "一つの地震についての計算例です。安全を保証するものではありません。専門家に相談してください。"}

@@ -51,7 +51,7 @@ def _row(result, house):
         "motions": result.motions,
         "ratio": f"{result.ratio:.2f}" if math.isfinite(result.ratio) else "-",
         "collapses": f"{result.collapses} ({result.house_collapses})",
-        "p": "-" if result.p is None else f"{result.p:.3f}",
+        "p": "-" if result.p is None else "< 0.001" if result.p < 1e-3 else f"{result.p:.3f}",
         "color": COLORS.get(result.words, "#444"),
         "result": result.words,
         "dots": [_dot(motion, run, house.runs[motion]) for motion, run in result.entry.runs.items()],

@@ -8,9 +8,11 @@ from ...base.atomic_write import write_text
 from ...base.errors import RunError
 from ...base.processors import processors
 from ...base.table import csv_text
+from ...text.english import counted
 from ..batch import read_table, run_rows, write_runs
 from ..batch.table import COLUMNS
 from ..batch.tasks import check_rows, task_of
+from ..driver import about
 from .candidates import AS_IT_IS
 from .race import Entry, cost, rounds, select
 
@@ -83,6 +85,8 @@ class Ranking:
 
     def run(self, report=print):
         """All rounds. report: called with a line after each. Raises RunError when a run of the house as it is fails."""
+        first = self._run([(self.house, self.motions[0])], self.house)
+        report(f"first run: {progress(first, cost(len(self.motions), len(self.candidates)) - 1, self.jobs)}")
         racing, pairs, before = self.entries, [], 0
         for number, (done, count) in enumerate(self.plan, 1):
             racing = select([entry for entry in racing if not entry.failed], self.house, count) if before else racing
@@ -127,8 +131,8 @@ class Ranking:
 
 
 def progress(runs, left, jobs):
-    """'24 runs, 31 s each; 36 runs left, about 10 min'. jobs: runs at a time, None: one per core"""
+    """'24 runs of 31 s; 36 runs left, about 10 min'. jobs: runs at a time, None: one per core"""
     walls = [run["wall_s"] for run in runs if run["status"] == "done"]
     each = sum(walls) / max(len(walls), 1)
-    rest = f"; {left} runs left, about {each * left / (jobs or processors()) / 60:.0f} min" if left > 0 else ""
-    return f"{len(runs)} runs, {each:.0f} s each{rest}"
+    rest = f"; {left} runs left, {about(each * left / (jobs or processors()))}" if left > 0 else ""
+    return f"{counted(len(runs), 'run')} of {each:.0f} s{rest}"
