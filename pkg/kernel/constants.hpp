@@ -144,7 +144,35 @@ constexpr double thresholdDrop = 0.25;
 
 /// Sweeps over changing pairs; accelerated ones follow. [-] Larger: more sweeps where light members are pressed between
 /// heavy ones; smaller: accelerated sweeps, which visit all pairs, where a few more plain ones are enough.
-constexpr int plainSweeps = 500;
+constexpr int plainSweeps = 200;
+
+/// Accelerated sweeps before Newton's method is tried first, and between two tries. [-] In stacks of boards of 0.2 to 2
+/// kg under blocks of 200 to 2400 kg it takes as long as some 500 sweeps. First one smaller: where a few more sweeps
+/// are enough; interval smaller: again from nearly the same state.
+constexpr int newtonFirst = 100, newtonInterval = 1000;
+
+/// Most free bodies of an island that Newton's method solves: its matrix has six rows for each. [-] Larger: a step takes
+/// longer than maxSweeps.
+constexpr int newtonBodies = 40;
+
+/// Softness of a point whose account limits its impulse (point_law.hpp): in the first root of Newton's method, in the
+/// last one, and by which it falls from root to root; roots that are tried at most. [-]
+/// Last one larger: points return less than they have, by this share; 1e-8: rounding of the velocities decides.
+/// Fall larger: more roots; smaller: the start of a root is too far off.
+constexpr double firstSoftness = 0.1, leastSoftness = 1e-6, softnessShare = 0.01;
+constexpr int softnessLevels = 12;
+
+/// Most steps of Newton's method to a root, and |r| there over the momenta. [-] Ten steps are usual; rounding leaves 1e-10.
+constexpr int newtonSteps = 20;
+constexpr double newtonTolerance = 1e-9;
+
+/// Search along a direction of Newton's method: most trials, and the slope that ends them over that at the start. [-]
+constexpr int lineSteps = 20;
+constexpr double lineTolerance = 0.1;
+
+/// Differences of velocities for the slope of an impulse, over the velocities. [-] Larger: the curvature counts; smaller:
+/// rounding does.
+constexpr double slopeShare = 1e-7;
 
 /// Sweeps from which on the returned energy is checked: a small change of impulses does not mean a small error. [-]
 /// 20: boards of 1 kg between blocks of 1 t gain 1e-2 of the energy put in, and walk out; 1: a pass over the points in

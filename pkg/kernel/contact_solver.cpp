@@ -338,13 +338,26 @@ bool ContactSolver::sweepAll(double threshold)
 	return changed;
 }
 
+/// solveByNewton() for small islands. If it fails, all impulses and velocities are as before.
+bool ContactSolver::tryNewton()
+{
+	if (freeBodies.size() > size_t(newtonBodies)) return false;
+	std::vector<double> before;
+	visitUnknowns([&](double& x, double) { before.push_back(x); });
+	if (solveByNewton()) return true;
+	size_t n = 0;
+	visitUnknowns([&](double& x, double) { x = before[n++]; });
+	return false;
+}
+
 /// Whether they have converged within the limit of all sweeps.
 bool ContactSolver::sweepAccelerated(double threshold, int& sweeps)
 {
 	ConjugateDirection direction;
 	visitUnknowns([&](double& x, double) { direction.before.push_back(x); });
 	direction.direction.resize(direction.before.size(), 0);
-	while (true) {
+	for (int k = 0;; ++k) {
+		if (k % newtonInterval == newtonFirst && tryNewton()) return true;
 		++sweeps;
 		if (!sweepAll(threshold) && !returnsTooMuch()) return true;
 		if (sweeps >= maxSweeps) return false;

@@ -27,7 +27,8 @@
 ///     Z <- Z' + gamma G,   G <- gamma G + (Z' - Z),   gamma = |Z' - Z|^2 / |Z' - Z|^2 of the sweep before    (9)
 /// with all impulses and velocities Z before, Z' after a sweep; gamma >= 1 starts anew with G = Z' - Z and no step
 /// (nonlinear conjugate gradients after Fletcher and Reeves; Silcowitz, Niebe and Erleben, Visual Comput. 26 (2010),
-/// 893-901). They end after a sweep, so that (3) to (6) hold.
+/// 893-901). They end after a sweep, so that (3) to (6) hold. If newtonFirst of them are not enough, Newton's method is
+/// tried (contact_newton.cpp).
 ///
 /// Mass-weighted velocities: W = R^-1 V for the velocities and spins V of a pair, R R^T: the inverse of its mass matrix
 /// (Cholesky). A row of J gives a component of the relative velocity at a point, u = J V. An impulse p changes u by
@@ -206,6 +207,10 @@ private:
 	void stepAlong(ConjugateDirection& direction);
 	bool sweepAll(double threshold);
 	bool sweepAccelerated(double threshold, int& sweeps);
+	class Newton;
+	/// Returns whether the impulses of all points and joints are the solution of the step.
+	bool solveByNewton();
+	bool tryNewton();
 	Convergence sweepToConvergence(double tolerance);
 };
 

@@ -48,26 +48,35 @@ struct Hardening {
 	}
 };
 
+/// What a closing displacement d > 0 adds in (7), without (1 - a M_n).
+struct HardeningImpulse {
+	double value, slope; ///< [N s]; its derivative by d [N s/m]
+};
+inline HardeningImpulse hardeningImpulse(const PointStep& c, double d)
+{
+	const double h = c.length, a = c.response(), closing = -h * std::min(0., c.before[0]),
+	             K = c.power * c.hardening / c.overlap;
+	const bool exceeds = d > closing; // what the velocity before the step does not explain
+	const Hardening spring(c, d, exceeds ? (d - closing) / 2 : 0);
+	const double y = a * h * h * (K + spring.force / d), beta = y / (4 * y + 2);
+	return { beta * h * spring.force + spring.damping * d,
+		beta * h * spring.slope + spring.damping + (exceeds ? spring.dampingSlope * d / 2 : 0) };
+}
+
 /// Normal impulse of a point whose spring hardens within the step: (7). linear: p by (2) [N s]; way: closing
 /// displacement d for it, > 0 [m].
 /// In the unknown d, (7) is d + h a (1 - a M_n) more(d) = way, whose left side increases: Newton's method within
 /// bounds.
 inline double hardenedImpulse(const PointStep& c, double linear, double way)
 {
-	const double h = c.length, a = c.response(), factor = h * a * (1 - a * c.mass[0]),
-	             closing = -h * std::min(0., c.before[0]), K = c.power * c.hardening / c.overlap;
+	const double h = c.length, a = c.response(), factor = h * a * (1 - a * c.mass[0]);
 	double low = 0, high = std::min(way, c.room), d = high;
 	for (int k = 0; k < hardeningSteps; ++k) {
-		const bool exceeds = d > closing; // what the velocity before the step does not explain
-		const Hardening spring(c, d, exceeds ? (d - closing) / 2 : 0);
-		const double y = a * h * h * (K + spring.force / d), beta = y / (4 * y + 2);
-		const double more = beta * h * spring.force + spring.damping * d;
+		const HardeningImpulse more = hardeningImpulse(c, d);
 		// The force is constant at the end
-		if (k == 0 && way - factor * more > c.room) return linear + (factor / (h * a)) * more;
-		// Of `more` by d
-		const double slope
-		        = beta * h * spring.slope + spring.damping + (exceeds ? spring.dampingSlope * d / 2 : 0);
-		const double excess = d + factor * more - way, newton = d - excess / (1 + factor * slope), last = d;
+		if (k == 0 && way - factor * more.value > c.room) return linear + (factor / (h * a)) * more.value;
+		const double excess = d + factor * more.value - way, newton = d - excess / (1 + factor * more.slope),
+		             last = d;
 		(excess > 0 ? high : low) = d;
 		const bool isInside = newton >= low && newton <= high;
 		d = isInside ? newton : (low + high) / 2;

@@ -215,6 +215,19 @@ void solveModes(ModalConstraint& c, PairVector& velocity, double threshold)
 	apply(c, velocity, change);
 }
 
+ModalLaw modalLaw(ModalConstraint& c, const Vec6& after)
+{
+	if (c.springs.empty()) return { -c.decay.cwiseProduct(c.before + after), c.decay.asDiagonal() };
+	Mat6 slope;
+	const Vec6 impulse = c.springs.impulseAt(c.step(), after, slope);
+	return { impulse, slope };
+}
+
+bool keepsAccount(const ModalConstraint& c, const PairVector& change)
+{
+	return c.springs.empty() || c.springs.keepsAccount(c.step(), c.impulse, modalNow(c, change));
+}
+
 void applyExplicitModes(ModalConstraint& c, PairVector& change)
 {
 	c.impulse = -2 * c.decay.cwiseProduct(c.before);

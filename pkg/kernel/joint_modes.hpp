@@ -166,6 +166,15 @@ void warmStart(const ModalConstraint& constraint, PairVector& change);
 /// One Gauss-Seidel visit: (3), or (3) of spring_step.hpp. A squared change of at most `threshold` [J] is not applied.
 void solveModes(ModalConstraint& constraint, PairVector& change, double threshold);
 
+/// Impulse of the modes as a function of eta'. after: eta' [kg^1/2 m/s].
+struct ModalLaw {
+	Vec6 impulse; ///< q
+	Mat6 slope; ///< -dq/deta' [-]
+};
+ModalLaw modalLaw(ModalConstraint& constraint, const Vec6& after);
+/// Whether the springs of a stiff joint return at most their account with the impulse q. change: as of warmStart().
+bool keepsAccount(const ModalConstraint& constraint, const PairVector& change);
+
 /// Impulse of explicit dashpots, of the velocities before the step.
 void applyExplicitModes(ModalConstraint& constraint, PairVector& change);
 

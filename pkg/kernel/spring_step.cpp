@@ -165,6 +165,18 @@ Vec6 SpringSteps::impulse(const ModalStep& step, const Vec6& free, Vec6 after)
 	return withinAccount(step, free, after - free - point.residual);
 }
 
+Vec6 SpringSteps::impulseAt(const ModalStep& step, const Vec6& after, Mat6& derivative)
+{
+	const double kappa = tryStretches(step.h, after);
+	derivative = slope(step, kappa) - Mat6::Identity();
+	return -residual(step, after, after);
+}
+
+bool SpringSteps::keepsAccount(const ModalStep& step, const Vec6& impulse, const Vec6& after) const
+{
+	return withinAccount(step, after - impulse, impulse) == impulse;
+}
+
 /// Impulse whose springs return at most the account: (4).
 Vec6 SpringSteps::withinAccount(const ModalStep& step, const Vec6& free, const Vec6& impulse) const
 {

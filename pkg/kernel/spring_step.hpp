@@ -103,6 +103,10 @@ public:
 	Vec6 warmStart(double h) const;
 	/// Impulse of springs and dashpots without q_a: eta' - E by (3), (4). free: E; after: an estimate of eta'.
 	Vec6 impulse(const ModalStep& step, const Vec6& free, Vec6 after);
+	/// The same as a function of eta' without (4), and minus its derivative.
+	Vec6 impulseAt(const ModalStep& step, const Vec6& after, Mat6& slope);
+	/// Whether (4) admits the impulse at eta'.
+	bool keepsAccount(const ModalStep& step, const Vec6& impulse, const Vec6& after) const;
 	/// Account and history after the step. impulse: without q_a; after: eta'.
 	void finish(const ModalStep& step, const Vec6& impulse, const Vec6& after);
 };
