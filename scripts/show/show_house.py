@@ -43,6 +43,7 @@ def main():
         judged = diagnose(model)
         print(json.dumps({**model.counts(), "weight": weigh(model), "diagnosis": judged}, indent=2))
         path = options.out or file_name(f"house_{model.name}")
+        print(judged["sentence"])
         written = drawings.write(path, model) + pushovers(path, judged["structures"])
     print("written: " + ", ".join(map(str, written)))
     if options.draw_only:

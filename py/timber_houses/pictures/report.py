@@ -33,7 +33,7 @@ JOINTS_SHOWN = 8
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 PATIENCE = 120.0
 """Longest wait for the browser. [s]"""
-COLORS = {"undamaged": "#009E73", "repairable": "#E69F00", "unsafe": "#D55E00", "collapsed": "#222222"}
+COLORS = dict(zip(verdict.STATES, ("#009E73", "#E69F00", "#D55E00", "#8C1C13", "#222222")))
 CAVEATS = (
     "Members are rigid: they neither bend nor split; only joints and contacts deform.",
     ("Snow steadies a braced house in this model, since its weight holds the floors down on the braces. In practice"
@@ -83,7 +83,7 @@ def page(frames, results):
         failures=failed_joints(frames, results, failures),
         others=others(frames, results) if failures else None,
         joints=joints(results),
-        limits="; ".join(f"1/{round(1 / limit.drift)} {limit.name} ({limit.source})" for limit in verdict.LIMITS),
+        limits="; ".join(f"{limit.text} ({limit.source})" for limit in (*verdict.LIMITS, verdict.LOSS)),
         caveats=caveats(summary),
         versions=versions(summary),
         command=command(summary.made_from["options"]),
@@ -124,7 +124,7 @@ def house(frames, summary, failures):
     periods = ", ".join(f"{mode_name(mode)} {period_text(mode)}" for axis in ("ns", "ew")
                         if (mode := summary.main_mode("before", axis)))
     index = f"By the diagnosis of engineers: {summary.diagnosis.sentence}. {summary.diagnosis.disagreement}"
-    natural = f" Natural periods {periods}." if periods else ""
+    natural = f" Natural periods of small vibrations {periods}." if periods else ""
     return f"{legend}. {numbers}. {weight(summary.weight)}{natural} {index}"
 
 

@@ -110,7 +110,8 @@ def outcome(summary):
                else f"below the {verdict.DAMAGE.name} of {ratio(verdict.DAMAGE.drift)}")
     torsion = at_columns(summary)
     lean = " and leans at the end" if summary.main.leans else ""
-    return f"is {summary.main.verdict}{lean}: peak storey drift {peak}, {meaning}{torsion}"
+    article = "a " * (summary.main.verdict == verdict.TOTAL_LOSS)
+    return f"is {article}{summary.main.verdict}{lean}: peak storey drift {peak}, {meaning}{torsion}"
 
 
 def at_columns(summary):
@@ -133,11 +134,12 @@ def other_walls(summary):
 
 
 def residual(summary):
-    """Residual drift after a peak beyond the damage limit, amplitude of the motion that remains."""
+    """Residual drift after a peak beyond the damage limit, its own limit, amplitude of the motion that remains."""
     parts = []
     drift, _, direction = summary.largest_drift("residual_drift")
     if not summary.collapsed and summary.largest_drift()[0] >= verdict.DAMAGE.drift:
-        parts.append(f"residual drift {directed(drift, direction)}")
+        loss = f" beyond the {verdict.LOSS.name} of {verdict.LOSS.ratio}" * (drift >= verdict.LOSS.drift)
+        parts.append(f"residual drift {directed(drift, direction)}{loss}")
     if summary.still_moving and not summary.collapsed:
         amplitude, _, direction = summary.largest_drift("final_amplitude")
         parts.append(f"still moving by ±{directed(amplitude, direction)}")
@@ -290,7 +292,8 @@ def ratio(drift, below="below "):
     if drift < SMALL:
         return f"{below}1/1000"
     number = round(1 / drift)
-    number += any(drift < limit.drift and number == round(1 / limit.drift) for limit in verdict.LIMITS)
+    number += any(drift < limit.drift and number == round(1 / limit.drift)
+                  for limit in (*verdict.LIMITS, verdict.LOSS))
     return f"1/{number}" if drift <= 0.5 else f"{drift:.2f}"
 
 

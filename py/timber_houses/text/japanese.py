@@ -9,7 +9,8 @@ SIDES = {"north": "北", "south": "南", "east": "東", "west": "西"}
 STRUCTURES = {"entrance": "玄関"}
 ORIGIN = {"none": "地動なし", "motion": "地動", "record": "記録", "intensity": "計測震度", "step": "時間刻み"}
 """Words of pictures/provenance.py."""
-OUTCOMES = {"undamaged": "無被害", "repairable": "補修可能", "unsafe": "危険", "collapsed": "倒壊", "failed": "計算失敗"}
+OUTCOMES = {"undamaged": "無被害", "repairable": "補修可能", "unsafe": "危険", "total loss": "全壊",
+            "collapsed": "倒壊", "failed": "計算失敗"}
 LEVELS = {"damage limit": "損傷の始まり", "safety limit": "大きな損傷"}
 
 
