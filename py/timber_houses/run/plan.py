@@ -23,7 +23,11 @@ class TownPlan:
 def planned(options):
     """Scenario, or TownPlan of a town. Raises HouseError, RecordError."""
     with noted():
-        motion = options.motion(options.dt, options.ground_motion) if options.shaken else None
+        return _planned(options)
+
+
+def _planned(options):
+    motion = options.motion(options.dt, options.ground_motion) if options.shaken else None
     if options.town is None:
         return _scenario(options, motion)
     town = load_town(options.town)
