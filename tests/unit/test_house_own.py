@@ -238,8 +238,8 @@ def test_a_key_with_plus_adds_to_an_inherited_list(tmp_path):
         warnings.simplefilter("error")
         found = load_house(path).data["structures"]["main"]["walls"]
         changed = changed_house("tiled_house", [f"structures.main.walls+=[{WALL}]"])["structures"]["main"]["walls"]
-    assert found[:len(walls)] == walls and len(found) == len(walls) + 2
-    assert changed[:-1] == walls and changed[-1]["type"] == ["plywood"]
+    assert found[:len(walls)] == walls and len(found) == len(walls) + 2 and found[-1]["type"] == ["plywood"]
+    assert len(changed) == len(walls) + 1 and changed[-1]["type"] == "plywood"
 
 
 def test_replaced_walls_are_noted(tmp_path):
