@@ -45,7 +45,9 @@ def cut_off(summary):
 
 
 def early(summary):
-    """Remark on a run that ends before or in the strong shaking; empty for others."""
+    """Remark on a run that ends before or in the strong shaking, or with the rest of its wreck; empty for others."""
+    if summary.rest_s is not None:
+        return f"the run ends at {summary.duration_s:.0f} s, since the wreck is at rest from {summary.rest_s:.0f} s on"
     onset, end = summary.missed_shaking or (None, None)
     if onset is None:
         return ""

@@ -104,6 +104,8 @@ def snow(summary):
 
 
 def early(summary):
+    if summary.rest_s is not None:
+        return f"{summary.rest_s:.0f} 秒から瓦礫が静止したため、{summary.duration_s:.0f} 秒で計算を終了"
     onset, end = summary.missed_shaking or (None, None)
     if onset is None:
         return ""
