@@ -29,7 +29,8 @@ class Scenario:
     None; snow_depth [m].
 
     scale: factor on the motion [-]; delay: time at which it begins [s]; dt, duration [s]; until_collapse, until_rest:
-    whether a collapse ends the run, whether the rest of its wreck does; joint_damping: damping ratio of sway and joints [-], wall_level: of walls of a rated
+    whether a collapse ends the run, whether the rest of its wreck does; joint_damping: ratio of sway and joints
+    [-], wall_level: of walls of a rated
     multiplier, None for both: the house's own; disturb: seed of the house's disturbance, None: none; options: of
     `engines.engines`; record, other_walls: of the summary, on the motion and on walls of the other level.
     """
