@@ -266,6 +266,12 @@ def test_plus_belongs_to_lists(tmp_path, text, words):
     assert words in str(caught.value)
 
 
+def test_lines_that_cross_are_refused_with_the_remedy(tmp_path):
+    lines = "[{along: y, at: [0, 2], from: 0, to: 2}, {along: x, at: 0, from: 0, to: 2}]"
+    with pytest.raises(HouseError, match="sill .* overlaps sill .*, or give one of the lines cut: true where they"):
+        shed(tmp_path, "type: flat, thickness: 0.1", lines=lines)
+
+
 def test_json_is_yaml(tmp_path):
     assert house(tmp_path, '{"extends": "C", "name": "mine", "snow": {"depth": 0.5}}').snow_depth == 0.5
 

@@ -92,7 +92,7 @@ def secant_periods(model, group, curves, drift):
     periods = {}
     for axis, direction in enumerate(DIRECTIONS):
         curve = [np.transpose(curves[storey, direction] or [(0.0, 0.0)]) for storey in storeys]
-        shears = [1000 * np.interp(drift, *points, right=0.0) for points in curve]
+        shears = [1000 * np.interp(drift, drifts, forces, right=0.0) for drifts, forces in curve]
         widths = [np.mean([np.ptp(column.vertices[:, axis]) for column in model.of_kind("column", group=group)
                            if column.storey == storey]) for storey in storeys]
         rocking = weights * (widths / heights - drift)
