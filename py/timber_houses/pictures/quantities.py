@@ -68,7 +68,7 @@ def page(results, dpi):
     draw_accelerations(figure.add_subplot(rows[1, 1]), results)
     draw_joints(figure.add_subplot(lower[0]), results)
     draw_uplift(figure.add_subplot(lower[1]), results)
-    draw_modes(figure.add_subplot(rows[3, :]), results)
+    draw_modes(figure.add_subplot(rows[3, 0]), results)
     heading(figure, f"House {results.summary.model}. Quantities{before(results.summary.quantities)}", text)
     return figure
 

@@ -190,14 +190,13 @@ def failed_joints(frames, results, failures):
     for failure in failures:
         number, more = failure.joints[0], len(failure.joints) - 1
         mine = [by_name[joint.name[each]] for each in failure.joints]
-        storey = joint.storey[number]
         bay, material = place(frames, number)
+        bay = bay.partition(".")[2] if joint.storey[number].isdigit() else bay  # of the main structure
         kind = "" if joint.kind[number] == WALL_COLUMN else f"{joint.kind[number].replace('_', '-')}, "
         rows.append({
             "time": f"{failure.time:.2f}",
             "joint": ", ".join(joint_name(row["joint"]) for row in mine),
-            "place": (f"{kind}{'storey ' * storey.isdigit()}{storey}: {bay}, {material}"
-                      f"{f' and {more} more' * (more > 0)}"),
+            "place": f"{kind}{bay}, {material}{f' and {more} more' * (more > 0)}",
             "cause": failure.cause,
             "drift": "" if failure.drift is None else directed(failure.drift, failure.direction),
             "forces": [f"{max(float(row[column]) for row in mine) / 1e3:.1f}"

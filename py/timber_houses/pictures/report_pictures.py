@@ -69,13 +69,13 @@ def draw_plan(axis, frames, storey):
 
 
 def draw_failures(axis, frames, storey, failures):
-    """Numbers of the failures in a storey at their joints, those at one place in a row."""
+    """Numbers of the failures in a storey at the first of their joints, those at one place in a row."""
     places = frames.joint_places(0)
     rows = {}
     for number, failure in enumerate(failures, 1):
-        for joint in failure.joints:
-            if frames.elements.storey[frames.joints.a[joint]] == storey:
-                rows.setdefault(tuple(places[joint][:2].round(0)), {})[number] = places[joint][:2]
+        joint = failure.joints[0]
+        if frames.elements.storey[frames.joints.a[joint]] == storey:
+            rows.setdefault(tuple(places[joint][:2].round(0)), {})[number] = places[joint][:2]
     for row in rows.values():
         at = np.mean(list(row.values()), axis=0)
         text = " ".join(map(str, row))

@@ -8,7 +8,7 @@ from ..base.joint_kinds import WALL_COLUMN
 
 MOST = 8
 """Number of failures."""
-ONE_TIME = 0.01
+ONE_TIME = 0.05
 """Failures of like joints within this time are one. [s]"""
 
 
