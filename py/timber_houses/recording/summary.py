@@ -85,7 +85,7 @@ class Summary:
     made_from: dict
     ensemble: Ensemble | None = optional()
     column_drift: ColumnDrifts | None = optional()
-    rest_s: float | None = optional()
+    rest_s: float | None = None
 
     @classmethod
     def read(cls, folder):
