@@ -11,6 +11,7 @@ from pathlib import Path
 from show_common import Parser, errors_in_a_line, file_name, path
 
 from timber_houses.base.errors import RunError
+from timber_houses.base.notes import noted
 from timber_houses.house import build_house, diagnose, load_house, shipped_houses, weigh
 from timber_houses.pictures import drawings, pushover
 from timber_houses.pictures.figures import save, stem_and_endings
@@ -39,10 +40,12 @@ def pushovers(path, structures):
 def main():
     options = arguments()
     with errors_in_a_line(options.out or "the picture"):
-        model = build_house(load_house(options.house), options.snow)
+        with noted():
+            model = build_house(load_house(options.house), options.snow)
         judged = diagnose(model)
         print(json.dumps({**model.counts(), "weight": weigh(model), "diagnosis": judged}, indent=2))
         path = options.out or file_name(f"house_{model.name}")
+        print(judged["sentence"])
         written = drawings.write(path, model) + pushovers(path, judged["structures"])
     print("written: " + ", ".join(map(str, written)))
     if options.draw_only:

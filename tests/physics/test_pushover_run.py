@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A slow push of the solver beside the pushover curve of a box of one storey with rigid roof."""
+"""A slow push and a free vibration of the solver beside pushover curve and secant period of a box of one storey with a
+rigid roof."""
 import numpy as np
+import pytest
 import timber_houses as th
 from timber_houses.base.gravity import weight_of
 from timber_houses.house import build_house, load_house
-from timber_houses.house.pushover import pushover
+from timber_houses.house.pushover import pushover, secant_periods
 from timber_houses.motion import GroundMotion
 from timber_houses.pictures import quantities
 
@@ -55,3 +57,24 @@ def test_slow_push(tmp_path):
     assert more.min() > -0.01 * shears.max() and more.max() < rocking + 0.01 * shears.max()
     slope = np.polyfit(drifts[late], shears[late], 1)[0]
     assert abs(slope / (curve[1, 1] / curve[0, 1]) - 1) < 0.03
+
+
+def test_free_vibration(tmp_path):
+    """Pushed slowly and released, the box swings with the secant period of its amplitude, within 4 %.
+
+    Observed: 3 % shorter, since a constant force like that of rocking columns has a period 10 % below its secant one.
+    """
+    (tmp_path / "box.yaml").write_text(BOX)
+    release, end, step = 3.0, 5.0, 0.01
+    time = np.arange(0, end + step / 2, step)
+    east = 5.0 * np.clip(time - 1, 0, 1) * (time < release)
+    th.run(tmp_path / "box.yaml", motion=GroundMotion(step, np.column_stack([east, 0 * east, 0 * east])), duration=end,
+           out=tmp_path / "out", no_frames=True, quiet=True)
+    model, history = build_house(load_house(tmp_path / "box.yaml")), quantities.read(tmp_path / "out").history
+    curves, drift = pushover(model, "main"), history.drift(1, "ew")
+    passes = np.flatnonzero((np.diff(np.sign(drift)) != 0) & (history.time[:-1] > release))
+    times = history.time[passes] - drift[passes] * np.diff(history.time)[passes] / np.diff(drift)[passes]
+    for k in range(4):
+        amplitude = np.abs(drift[passes[k]:passes[k + 1]]).max()
+        expected = secant_periods(model, "main", curves, amplitude)["ew"]
+        assert amplitude > 1 / 500 and 2 * (times[k + 1] - times[k]) == pytest.approx(expected, rel=0.04)

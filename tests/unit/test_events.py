@@ -202,7 +202,8 @@ def drifts(peak, residual):
         (drifts(1 / 13, 0.01), ["is unsafe: ", "1/13", "beyond the safety limit of 1/30", "residual drift 1/100"
                                 ], ["leans"]),
         (drifts(1 / 80, 0.0), ["is repairable: ", "beyond the damage limit of 1/120"], ["unsafe"]),
-        (drifts(0.3, 0.25), ["is unsafe and leans at the end", "1/3 E-W", "residual drift 1/4"], []),
+        (drifts(0.3, 0.25), ["is a total loss and leans at the end", "1/3 E-W",
+                            "residual drift 1/4 E-W beyond the limit of a total loss of 1/20"], []),
         ({"broken": {"partly_broken": 2}}, ["is repairable: ", "below the damage limit", "2 partly"], []),
         ({"columns": {"total": 90, "fallen": 1}, "events": [Event(20.5, ColumnsLost(1, 90))]
           }, ["is unsafe: ", "1 fallen of 90 columns, the first at 20.5 s"], []),
@@ -220,7 +221,7 @@ def drifts(peak, residual):
                 "main": SOUND, "carport": {**SOUND, "collapsed": True}, "shed": SOUND,
                 "entrance": {**SOUND, "peak_drift": 0.3, "residual_drift": 0.2}
             }, "events": [Event(21.35, StructureFallen("carport"))]
-        }, ["is undamaged", "carport collapsed at 21.4 s, entrance unsafe and leans (peak drift 1/3)"], ["shed"]),
+        }, ["is undamaged", "carport collapsed at 21.4 s, entrance total loss and leans (peak drift 1/3)"], ["shed"]),
         ({
             "structures": {
                 "main": SOUND, "porch": {**SOUND, "collapsed": True}, "porch2": {**SOUND, "collapsed": True}
@@ -279,6 +280,9 @@ def test_a_house_without_walls_has_no_wall_sheets():
     ({"peak_drift": 1 / 31}, "repairable"),
     ({"peak_drift": 1 / 30}, "unsafe"),
     ({"columns_lost": 1}, "unsafe"),
+    ({"peak_drift": 1 / 19, "residual_drift": 1 / 21}, "unsafe"),
+    ({"peak_drift": 1 / 19, "residual_drift": 1 / 20}, "total loss"),
+    ({"residual_drift": 1 / 9, "columns_lost": 1}, "total loss"),
     ({"peak_drift": 1.0, "collapsed": True}, "collapsed"),
 ])
 def test_verdict(changes, state):

@@ -138,7 +138,7 @@ MISTAKES = {
                         32, ["damage.regions[1].column_beam", "3 joints", "has 2 whole ones at the bottom"]),
     "damage to nowhere": ("snow: {depth: 0.5}", "damage: {regions: [{structure: barn, side: east, storey: 1}]}", 32,
                           ["damage.regions[1].structure", "'barn'", "store"]),
-    "snow too deep": ("depth: 0.5", "depth: 50", 32, ["snow.depth", "[0, 20] m"]),
+    "snow too deep": ("depth: 0.5", "depth: 50", 32, ["snow.depth", "[0, 6] m"]),
     "section in mm": ("section: 0.1, grid", "section: 105, grid", 22,
                       ["columns[1].section", "(0.01, 1] m", "105 mm = 0.105"]),
     "height in mm": ("layer: columns, height: 2", "layer: columns, height: 2000", 18,
@@ -148,8 +148,14 @@ MISTAKES = {
                          ["materials.timber.density", "[20, 30000] kg/m3", "0.4 g/cm3 = 400"]),
     "modulus in GPa": ("young: 9e9", "young: 9", 3,
                        ["materials.timber.young", "[1e+06, 1e+12] Pa", "9 MPa = 9e+06 or 9 GPa = 9e+09"]),
-    "stiffness in kN/m": ("kn: 1e5", "kn: 100", 27, ["joint_types.peg.kn", "[1000, 1e+12] N/m", "100 kN/m = 100000"]),
+    "stiffness in kN/m": ("kn: 1e5", "kn: 100", 27, ["joint_types.peg.kn", "[10000, 1e+12] N/m", "100 kN/m = 100000"]),
     "strength in kN": ("strength: 2000", "strength: 2", 27, ["joint_types.peg.strength", "2 kN = 2000"]),
+    "strength of a fitting in kN": ("strength: 2000", "strength: 11", 27, ["[100, inf] N", "11 kN = 11000"]),
+    "stiffness of a fitting in kN/m": ("kn: 1e5", "kn: 1500", 27, ["[10000, 1e+12] N/m", "1500 kN/m = 1.5e+06"]),
+    "stretch in mm": ("strength: 2000", "strength: 2000, law: slip, friction_share: 0.2, softening_stretch: 0.1,"
+                      " ultimate_stretch: 4", 27, ["[1e-05, 0.5] m", "4 mm = 0.004"]),
+    "density of no wood": ("density: 400", "density: 3400", 3, ["materials.timber.density", "at most 1400 kg/m3"]),
+    "snow of a hall": ("depth: 0.5", "depth: 10", 32, ["snow.depth", "[0, 6] m", "10 cm = 0.1"]),
     "pitch in sun": ("type: flat, thickness: 0.1", "type: gable, pitch: 4, thickness: 0.1", 20,
                      ["stack[4].pitch", "[0.02, 3] rise over run", "4 sun (tenths) = 0.4"]),
     "pitch and height": ("type: flat, thickness: 0.1", "type: gable, pitch: 0.4, ridge_height: 4, thickness: 0.1", 20,
@@ -218,7 +224,7 @@ MISTAKES = {
     "half a character": ("name: storehouse", "name: \"\\ud800\"", 1, ["name"]),
     "beyond Unicode": ("name: storehouse", "name: \"\\UFFFFFFFF\"", 1, []),
     "a very long name": ("name: storehouse", "name: " + "x" * 3000, 1, ["name", "3000", "60"]),
-    "a trace of snow": ("depth: 0.5", "depth: 1e-12", 32, ["snow.depth", "[0.001, 20] m", "1e-12"]),
+    "a trace of snow": ("depth: 0.5", "depth: 1e-12", 32, ["snow.depth", "[0.001, 6] m", "1e-12"]),
     "positions on top of each other": ("[0, 1.5]", "[0, 1e-9]", 11, ["grid.y.positions", "0.01 m"]),
 }
 

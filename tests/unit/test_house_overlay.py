@@ -78,7 +78,7 @@ def test_strength_scales_every_joint_type_but_the_unbreakable(tmp_path):
         ({"braces": ["brace1.EW.y0.3-4"]}, "column braces: 'brace1.EW.y0.3-4': "),
         ({"braces": ["shed.brace1.EW.y0.3-4"]}, "column braces: shed.brace1.EW.y0.3-4: unknown structure 'shed'"),
         ({"settings": ["joint_types.corner_fitting.strength=abc"]
-          }, "column set: joint_types.corner_fitting.strength: expected a number in [10, inf] N, got 'abc'"),
+          }, "column set: joint_types.corner_fitting.strength: expected a number in [100, inf] N, got 'abc'"),
         ({"settings": ["joint_types.new.kn=1e5"]}, "column set: joint_types.new"),
         ({"settings": ["joint_types=5"]}, "column set: joint_types"),
         ({"settings": ["structures=5"], "braces": ["main.brace1.EW.y0.3-4"]}, "column set: structures"),

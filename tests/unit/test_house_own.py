@@ -4,6 +4,7 @@
 
 import sys
 import time
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +13,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
-from timber_houses.house import HouseError, build_house, check_house, load_house
+from timber_houses.house import HouseError, build_house, changed_house, check_house, load_house
 
 SHED = """\
 extends: base
@@ -221,6 +222,54 @@ def test_a_file_extends_a_shipped_house(tmp_path):
     assert {e.group for e in model.elements} == {"", "main"} and not any(j.broken for j in model.joints)
     (tmp_path / "base.yaml").write_text("extends: A\nname: beside\ndescription: the file beside\n")
     assert house(tmp_path, "extends: base.yaml\nname: mine\n").description == "the file beside"
+
+
+WALL = "{along: x, at: 0, from: 0, to: 1, type: plywood}"
+
+
+def test_a_key_with_plus_adds_to_an_inherited_list(tmp_path):
+    """Through two files, and to a list that is not there; the same with a single changed key."""
+    walls = load_house("tiled_house").data["structures"]["main"]["walls"]
+    more = f"extends: tiled_house\nname: mine\nstructures: {{main: {{walls+: [{WALL}], braces: {{lines+: []}}}}}}\n"
+    (tmp_path / "more.yaml").write_text(more)
+    path = tmp_path / "most.yaml"
+    path.write_text(more.replace("tiled_house", "more.yaml"))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        found = load_house(path).data["structures"]["main"]["walls"]
+        changed = changed_house("tiled_house", [f"structures.main.walls+=[{WALL}]"])["structures"]["main"]["walls"]
+    assert found[:len(walls)] == walls and len(found) == len(walls) + 2 and found[-1]["type"] == ["plywood"]
+    assert len(changed) == len(walls) + 1 and changed[-1]["type"] == "plywood"
+
+
+def test_replaced_walls_are_noted(tmp_path):
+    """In one line each; lists of numbers, equal and empty lists and shipped houses are not."""
+    count = len(load_house("tiled_house").data["structures"]["main"]["walls"])
+    text = f"structures: {{main: {{walls: [{WALL}], place: {{origin: [1, 0]}}}}}}"
+    (tmp_path / "own.yaml").write_text(f"extends: tiled_house\nname: mine\n{text}\n")
+    with pytest.warns(UserWarning) as notes:
+        load_house(tmp_path / "own.yaml")
+        changed_house("tiled_house", [f"structures.main.walls=[{WALL}]"], where="row 3, column {}".format)
+    assert [str(note.message) for note in notes] == [
+        f"{at}: structures.main.walls replaces the {count} inherited entries; structures.main.walls+ adds to them"
+        for at in ("own.yaml:3", "row 3, column set")]
+
+
+@pytest.mark.parametrize("text, words", [
+    ("structures: {main: {walls+: 3}}", "own.yaml:3: structures.main.walls+: adds to a list, got 3"),
+    ("description+: [a]", "own.yaml:3: description+: adds to a list"),
+    ("structures: {main: {wals+: []}}", "unknown key 'wals', did you mean 'walls'"),
+])
+def test_plus_belongs_to_lists(tmp_path, text, words):
+    with pytest.raises(HouseError) as caught:
+        house(tmp_path, f"extends: tiled_house\nname: mine\n{text}\n")
+    assert words in str(caught.value)
+
+
+def test_lines_that_cross_are_refused_with_the_remedy(tmp_path):
+    lines = "[{along: y, at: [0, 2], from: 0, to: 2}, {along: x, at: 0, from: 0, to: 2}]"
+    with pytest.raises(HouseError, match="sill .* overlaps sill .*, or give one of the lines cut: true where they"):
+        shed(tmp_path, "type: flat, thickness: 0.1", lines=lines)
 
 
 def test_json_is_yaml(tmp_path):

@@ -358,8 +358,16 @@ MISTAKES = {
         "envelope[1]", "a list of two items"
     ]),
     "drift in percent": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[1.5, 5000], [3, 0]]}}", [
-        "envelope[1][1]", "[0, 1] rad"
+        "envelope[1][1]", "[0, 0.5] rad"
     ]),
+    "drift of a part in percent": ("{along: y, at: 8, from: 0, to: 1, type: a}",
+                                   "{a: {multiplier: 2.5, softening_drift: 3.3}}", ["3.3 % = 0.033"]),
+    "strength of a wall in kN": ("{along: y, at: 8, from: 0, to: 1, type: a}",
+                                 "{a: {strength: 13.3, stiffness: 8.0e5}}", ["[100, 1e+06] N/m", "13.3 kN/m = 13300"]),
+    "stiffness of a wall in kN": ("{along: y, at: 8, from: 0, to: 1, type: a}",
+                                  "{a: {strength: 13300, stiffness: 800}}", ["800 kN/m per rad = 800000"]),
+    "friction force in kN": ("{along: y, at: 8, from: 0, to: 1, type: a}",
+                             "{a: {multiplier: 2.5, friction_force: 1.3}}", ["friction_force", "kN are 1000 N"]),
     "nails in kN/mm": (
         "{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {nails: %s}}" % NAILS.replace("4.83e5", "0.483"), [
             "nails.k", "0.483 kN/mm = 483000"

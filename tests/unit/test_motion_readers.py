@@ -6,8 +6,10 @@ With YADE_TIMBER_RECORDS naming a folder of real records, those are checked agai
 """
 
 import os
+import re
 import sys
 import time
+import warnings
 from datetime import datetime
 from pathlib import Path
 
@@ -570,6 +572,23 @@ def test_scale_beyond_any_ground_motion(tmp_path):
     path = write(tmp_path, "a.csv", csv_text("# units: gal\n# dt: 0.02\nns,ew,ud"))
     with pytest.raises(RecordError, match="1000 m/s2"):
         MotionRequest(record=str(path), scale=1e5).motion(0.02)
+
+
+@pytest.mark.parametrize("peak, more, expected", [
+    (0.8, {}, "peak 0.8 gal, .*0.8 m/s2 \\(80 gal\\) or 0.8 g \\(785 gal\\)"),
+    (8.2, {}, "peak 8.2 gal, .*8.2 m/s2 \\(820 gal\\)"),
+    (300, {"pga": 0.8}, "peak 0.8 gal, .*0.8 g \\(785 gal\\)"),
+    (300, {"scale": 0.01}, "peak 3 gal, "),
+    (300, {}, None), (0.0, {}, None),
+])
+def test_a_motion_in_another_unit_is_noted(tmp_path, peak, more, expected):
+    """Records in g or m/s2 read as gal, and a PGA in g."""
+    path = write(tmp_path, "a.csv", "# units: gal\n# dt: 0.02\nns\n" + f"{peak}\n{-peak}\n" * 50)
+    with warnings.catch_warnings(record=True) as notes:
+        warnings.simplefilter("always")
+        MotionRequest(record=str(path), **more).motion(0.02)
+    texts = [str(note.message) for note in notes]
+    assert len(texts) == (expected is not None) and (expected is None or re.search(expected, texts[0]))
 
 
 def test_processing_of_impossible_size(tmp_path):

@@ -14,7 +14,8 @@ sys.path.insert(0, str(ROOT / "py"))
 
 from test_house_plan import L_WALLS, house_file, write
 from timber_houses.house import build_house, diagnose, load_house
-from timber_houses.house.pushover import pushover
+from timber_houses.base.gravity import GRAVITY
+from timber_houses.house.pushover import pushover, secant_periods
 from timber_houses.house.wall_types import envelope
 from timber_houses.pictures.pushover import figure
 from timber_houses.recording.summary_parts import Components, Mode
@@ -32,6 +33,34 @@ def test_sum_of_the_walls(tmp_path):
     assert shears == pytest.approx(expected / 1000, abs=2e-3)
     assert drifts[-1] == pytest.approx(0.115) and max(shears) > 6 * 2.5 * 1.96 * 2.8
     assert pushover(build_house(house), "main")[1, "ns"] == []
+
+
+def test_secant_periods():
+    """Two storeys by the quadratic of a chain of two masses; none for a house of braces, whose columns bear more."""
+    model = build_house(load_house("l_house"))
+    periods = diagnose(model)["structures"]["main"]["periods_s"]
+    curves, drift = pushover(model, "main"), 1 / 120
+    for axis, direction in enumerate(("ew", "ns")):
+        masses, stiffness = [], []
+        for storey in (1, 2):
+            own = [e.mass * (0.5 if e.kind in ("column", "brace") else 1.0) for e in model.elements
+                   if e.group == "main" and not e.fixed
+                   and (e.storey == storey or e.kind in ("column", "brace") and e.storey == storey + 1)]
+            masses.append(sum(own))
+        for storey, above in ((1, sum(masses)), (2, masses[1])):
+            low, high = model.storey_levels["main"][storey]
+            columns = [c for c in model.of_kind("column", group="main") if c.storey == storey]
+            width = np.mean([np.ptp(column.vertices[:, axis]) for column in columns])
+            shear = 1000 * np.interp(drift, *np.transpose(curves[storey, direction]))
+            shear += above * GRAVITY * (width / (high - low) - drift)
+            stiffness.append(shear / drift / (high - low))
+        (m1, m2), (k1, k2) = masses, stiffness
+        half = (k1 + k2) / m1 / 2 + k2 / m2 / 2
+        omega2 = half - np.sqrt(half**2 - k1 * k2 / m1 / m2)
+        assert periods[direction] == pytest.approx(2 * np.pi / np.sqrt(omega2), abs=1e-3)
+    braced = build_house(load_house("B"))
+    assert secant_periods(braced, "main", pushover(braced, "main"), drift) == {"ew": None, "ns": None}
+    assert "natural periods at a drift of 1/120: N-S 0.37 s, E-W 0.45 s" in diagnose(model)["sentence"]
 
 
 def test_braces_pull():

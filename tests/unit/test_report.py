@@ -14,11 +14,12 @@ from markupsafe import escape
 from summaries import sample_summary
 from timber_houses.base.errors import RunError
 from timber_houses.pictures import figures, quantities, report, report_pictures
+from timber_houses.pictures.key_times import LAG, last_shown
 from timber_houses.recording import peaks
 from timber_houses.recording.failures import first_failures
 from timber_houses.recording.events import Collapse, Event, SnowFallen
 from timber_houses.recording.summary import Summary
-from timber_houses.recording.summary_parts import Mode, ModesAt, Weight
+from timber_houses.recording.summary_parts import Mode, ModesAt, OtherWalls, Walls, Weight
 from timber_houses.recording.quantities import SUSTAINED, Storeys, band_limited, ground_velocity, storeys
 from timber_houses.recording.frames import Motion, load
 from timber_houses.run.options import RunOptions, scripted
@@ -103,7 +104,8 @@ def test_page_and_report(folder, tmp_path):
     page = (tmp_path / report.PAGE).read_text()
     assert page.count("<img") == 4 and not re.search(r'(src|href)="(?!data:)', page), "the page is self-contained"
     found = Summary.read(tmp_path)
-    for part in (found.sentence, "Joints most loaded", "JMA intensity", "snow steadies a braced house".capitalize(),
+    for part in (found.sentence, "Joints nearest to failure", "have reached their strength", "JMA intensity",
+                 "snow steadies a braced house".capitalize(),
                  report.weight(found.weight), "scripts/modelB1_quake.py --start=17.5 --duration=1.3"):
         assert escape(part) in page, part
     if shutil.which("chromium"):
@@ -259,14 +261,49 @@ def test_first_failures():
     """Each joint once, by its first spring, in the order of time, with the drift of its storey then."""
     run = collapsed_run()
     chain = first_failures(run)
-    assert [(failure.joint, failure.time, failure.cause)
-            for failure in chain] == [(3, 2.2, "tension"), (1, 2.3, "shear")]
+    assert [(failure.joints, failure.time, failure.cause)
+            for failure in chain] == [((3,), 2.2, "tension"), ((1,), 2.3, "shear")]
     for failure in chain:
         drifts = [abs(np.interp(failure.time, run.history.time, run.history.drift(1, key))) for key in ("ns", "ew")]
         assert failure.drift == pytest.approx(max(drifts)) and failure.direction == ("ns", "ew")[int(np.argmax(drifts))]
-    assert [failure.joint for failure in first_failures(run, 1)] == [3]
+    assert [failure.joints for failure in first_failures(run, 1)] == [(3,)]
     run.breaks = None
     assert first_failures(run) == []
+
+
+def test_failures_of_one_time_are_one_line():
+    """Like joints within 0.05 s; another cause or material is another line. Sheets have their bay and material."""
+    run = collapsed_run()
+    run.joints.kind[:4] = ["wall_column"] * 4
+    sheets = ("plywood", "plywood", "plywood", "stucco")
+    run.joints.name[:4] = [f"main.wall1.EW.y0.{k}-{k + 1}.{sheet}.columns" for k, sheet in enumerate(sheets)]
+    run.joints.storey[:4] = ["1"] * 4
+    run.breaks = {"time": [2.2, 2.205, 2.3, 2.2], "joint": [0, 1, 2, 3], "spring": [0] * 4, "cause": ["shear"] * 4,
+                  "force": [0.0] * 4}
+    failures = first_failures(run)
+    assert [(failure.time, failure.joints) for failure in failures] == [(2.2, (0, 1)), (2.2, (3,)), (2.3, (2,))]
+    rows = [{"joint": name, "utilisation [-]": "1.0", "pull [N]": f"{1000 * k}", "shear [N]": "0",
+             "strength [N]": "5880", "state": "whole"} for k, name in enumerate(run.joints.name)]
+    results = quantities.Results(sample_summary(), run.history, None, rows, [])
+    both, stucco, _ = report.failed_joints(run, results, failures)
+    assert both["place"] == "wall1.EW.y0.0-1, plywood and 1 more" and both["forces"][0] == "1.0"
+    assert stucco["place"] == "wall1.EW.y0.3-4, stucco"
+    assert report.joints(results) == []
+    assert report.at_strength(results) == f"{len(rows)} of {len(rows)} joints have reached their strength: 8 whole."
+
+
+def test_the_report_names_the_level_of_the_walls():
+    same = OtherWalls("design", "undamaged", {})
+    for other, words in ((None, ""), (same, "; the verdict with design walls is the same"),
+                         (replace(same, verdict="unsafe"), "; the verdict with design walls is unsafe")):
+        assert report.sentence_of_walls(sample_summary(walls=Walls("mean", other))) == f"Walls of the level mean{words}"
+
+
+def test_curves_end_with_what_happens():
+    """2 s after the shaking, the motion of the house and the last break."""
+    run = collapsed_run()
+    run.time = np.append(run.time, run.time[-1] + 100)
+    assert run.breaks["time"][0] + LAG <= last_shown(run) < run.time[-1]
 
 
 def test_report_of_a_collapse():

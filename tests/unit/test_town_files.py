@@ -120,7 +120,7 @@ def test_overlapping_houses_are_refused(town):
         ("house: A", "house: Z", r"town.yaml:4: town.lots.west.house: unknown house 'Z': .*known: A, B"),
         ("house: A, ", "", r"town.yaml:4: town.lots.west: key 'house' is missing$"),
         ("rotation: 90", "turn: 90", r"town.yaml:5: town.lots.east: unknown key 'turn'"),
-        ("snow: 0.5", "snow: 1e-9", r"town.yaml:5: town.lots.east.snow: must be 0 or in \[0.001, 20\] m, got 1e-09$"),
+        ("snow: 0.5", "snow: 1e-9", r"town.yaml:5: town.lots.east.snow: must be 0 or in \[0.001, 6\] m, got 1e-09$"),
         ("  west:", "  ../west:", r"town.yaml:4: town.lots: '../west' is not a valid name"),
         ("  east:", "  west:", r"town.yaml:5: key 'west' is given twice \(first in line 4\); remove one$"),
         ("lots:", "houses:", r"town.yaml:3: town: unknown key 'houses', known: name, wave, lots$"),

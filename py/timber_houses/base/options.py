@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Options as fields of a dataclass. Readers of command lines, table cells and keywords follow from the fields."""
+import argparse
 from dataclasses import field, fields
 from numbers import Integral, Real
 from pathlib import Path
@@ -12,6 +13,8 @@ FLAGS = {"yes": True, "true": True, "1": True, "no": False, "false": False, "0":
 KINDS = {int: ("a whole number", Integral), float: ("a number", Real), bool: ("yes or no", bool),
          str: ("a text", (str, Path)), Path: ("a path", (str, Path))}
 """Kind of an option: its name in messages, and the Python types that a keyword may have."""
+HIDDEN = "hidden"
+"""Group of options that the help leaves out: of studies of this package."""
 BY_SCRIPT = ("house", "quake", "snow")
 """Options that a run script decides, unless it is house.py or town.py."""
 
@@ -85,7 +88,8 @@ def add_options(parser, wanted):
     """Give an ArgumentParser, or a group of one, these options; `read_arguments` reads their texts."""
     for each in wanted:
         form = {"action": "store_true"} if each.metadata["kind"] is bool else {"metavar": each.metadata["metavar"]}
-        parser.add_argument(command_option(each.name), dest=each.name, default=None, help=each.metadata["help"], **form)
+        about = argparse.SUPPRESS if each.metadata["group"] == HIDDEN else each.metadata["help"]
+        parser.add_argument(command_option(each.name), dest=each.name, default=None, help=about, **form)
 
 
 def read_arguments(kind, arguments):

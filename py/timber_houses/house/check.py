@@ -37,9 +37,11 @@ def _report_overlap(a, b, gap, count):
     low = np.maximum(a.solid.bounds[0], b.solid.bounds[0])
     high = np.minimum(a.solid.bounds[1], b.solid.bounds[1])
     x, y, z = (low + high) / 2
+    strips = {a.kind, b.kind} <= {"foundation", "sill", "beam"}
+    remedy = "move or shorten one of them" + ", or give one of the lines cut: true where they meet" * strips
     more = f" (and {count - 1} more such pairs)" if count > 1 else ""
     raise HouseError(f"{b.source}: {b.kind} {b.name} overlaps {a.kind} {a.name} ({a.source}) by {-gap * 1000:.3g} mm "
-                     f"near x {x:.3f}, y {y:.3f}, z {z:.3f} m; move or shorten one of them{more}")
+                     f"near x {x:.3f}, y {y:.3f}, z {z:.3f} m; {remedy}{more}")
 
 
 def _check_ends(model, touching):

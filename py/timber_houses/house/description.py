@@ -8,7 +8,7 @@ from ..base.remedies import nearest
 from .errors import HouseError
 from .friction import check_friction
 from .joint_values import check_joint_rules, check_joint_types
-from .layout import HOUSE, MAX_SNOW, MIN_SNOW
+from .layout import HOUSE, MAX_SNOW, MAX_WOOD, MIN_SNOW
 from .loader import load_table, shipped_houses, shipped_paths
 from .parser import Table
 from .schema import fail
@@ -38,12 +38,21 @@ def checked(table, path):
     """A house file's tables with all defaults filled in; raises HouseError."""
     data = HOUSE.check(table, f"{path.name}:1", "")
     _check_references(data)
+    _check_wood(data["materials"])
     check_friction(data)
     check_joint_types(data["joint_types"])
     check_joint_rules(data["joints"], data["joint_types"])
     check_wall_types(data["wall_types"])
     require_snow_depth(data["snow"]["depth"], f"{data['snow'].at('depth')}: snow.depth")
     return data
+
+
+def _check_wood(materials):
+    """HouseError for a material `timber`, that of all members which name none, of a density that no wood has."""
+    wood = materials.get("timber")
+    if wood is not None and wood["density"] > MAX_WOOD:
+        fail(wood.at("density"), "materials.timber.density", f"must be at most {MAX_WOOD:g} kg/m3 as the density of"
+             f" wood, got {wood['density']:g}; give other materials another name")
 
 
 def require_snow_depth(depth, where):

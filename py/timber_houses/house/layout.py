@@ -5,8 +5,10 @@ from .schema import REQUIRED, Choice, Flag, ListOf, MapOf, Number, Pair, Record,
 
 SIDES = ("north", "south", "east", "west")
 KINDS = ("foundation", "sill", "column", "beam", "floor", "brace", "roof", "snow", "ground")
-MIN_SNOW, MAX_SNOW = 1e-3, 20.0
+MIN_SNOW, MAX_SNOW = 1e-3, 6.0
 """Range of the depth of snow, which may also be 0. [m]"""
+MAX_WOOD = 1400.0
+"""Density of a material `timber`; the heaviest woods have 1300. [kg/m3]"""
 MIN_SPACING = 0.01
 """Smallest distance of two grid positions. [m]"""
 MAX_STOREYS, MAX_LAYERS, MAX_AREAS, MAX_REGIONS = 20, 50, 50, 50
@@ -77,8 +79,8 @@ wall_line = Record({"along": Choice(("x", "y")), "at": nodes, "from": node, "to"
                     "type": ListOf(word(), scalar=True, least=1, most=5),
                     "opening": Choice(("none", *OPENINGS), "none"), "panel": Number("", 0.1, 1.0, default=None),
                     "storeys": storeys})
-_slab_load = Number("kN/m2", 0.05, 20.0, default=None)
-loads = Record({"roof": _slab_load, "floor": _slab_load, "wall": Number("kN/m2", 0.0, 20.0, default=None)}, default={})
+_slab_load = Number("kN/m2", 0.05, 10.0, default=None)
+loads = Record({"roof": _slab_load, "floor": _slab_load, "wall": Number("kN/m2", 0.0, 10.0, default=None)}, default={})
 PLACE = Record({"origin": ListOf(Number("m", -1000, 1000), 2, default=None), "beside": word(None),
                 "side": Choice(SIDES, "east"), "align": Choice(("middle", *SIDES), "middle"),
                 "gap": length(high=100.0, default=0.0, open_low=False),
@@ -94,24 +96,24 @@ material = Variants("law", {
     "snow": Record({"law": Choice(("snow",)), "density": Number("kg/m3", 10, 1000),
                     "stiffness_per_kg": Number("N/m per kg", 0.0, 1e9, open_low=True)})
 })
-_stretch = Number("m", 1e-5, 10.0, default=None)
+_stretch = Number("m", 1e-5, 0.5, default=None)
 joint_type = Record({"law": Choice(("brittle", "slip"), "brittle"), "at": Choice(("corners", "centre"), "corners"),
-                     "kn": Number("N/m", 1e3, 1e12), "ks": Number("N/m", 1e3, 1e12),
-                     "strength": Number("N", 10.0, infinite=True),
+                     "kn": Number("N/m", 1e4, 1e12), "ks": Number("N/m", 1e4, 1e12),
+                     "strength": Number("N", 100.0, infinite=True),
                      "per": Choice(("spring", "joint"), None), "damping_ratio": Number("", 0.0, 1.0, default=None),
                      "friction_share": Number("", 0.0, 1.0, default=None), "softening_stretch": _stretch,
                      "ultimate_stretch": _stretch})
 SLIP_KEYS = ("friction_share", "softening_stretch", "ultimate_stretch")
 """Keys of a joint type that its law `slip` needs and `brittle` refuses."""
-_drift = Number("rad", 1e-4, 1.0, default=None)
+_drift = Number("rad", 1e-4, 0.5, default=None)
 board = Record({"width": length(0.1, 10.0), "heights": ListOf(length(0.1, 10.0), scalar=True, most=MAX_BOARDS),
                 "thickness": length(0.001, 0.2), "shear_modulus": Number("Pa", 1e6, 1e11),
                 "edge": length(high=0.1, default=0.01, open_low=False)})
-nails = Record({"k": Number("N/m", 1e4, 1e8), "Pv": Number("N", 10.0, 1e5), "dv": length(high=0.1, default=None),
+nails = Record({"k": Number("N/m", 1e4, 1e8), "Pv": Number("N", 50.0, 1e5), "dv": length(high=0.1, default=None),
                 "du": length(1e-4, 0.5), "spacing": length(0.01, 1.0), "inner_spacing": length(0.01, 1.0, default=None),
                 "board": board, "height": length(0.1, 20.0, default=None)},
                default=None)
-envelope = ListOf(Pair(Number("rad", 0.0, 1.0), Number("N/m", 0.0, 1e6)), most=MAX_POINTS, default=None)
+envelope = ListOf(Pair(Number("rad", 0.0, 0.5), Number("N/m", 0.0, 1e6)), most=MAX_POINTS, default=None)
 saws = Record({"F0": Number("N", 100.0, 1e7), "FI": Number("N", 0.0, 1e7), "DU": length(1e-3, 0.5),
                "S0": Number("N/m", 1e4, 1e9), "R1": Number("", 0.0, 1.0), "R2": Number("", -1.0, -1e-4),
                "R3": Number("", 1.0, 10.0), "R4": Number("", 0.0, 0.9), "alpha": Number("", 0.05, 2.0),
@@ -120,8 +122,8 @@ SAWS_STATES = ("friction_force", "reload_share", "reload_target")
 """Keys of a wall type that follow from `saws`."""
 wall_type = Record({"multiplier": Number("", 0.0, 20.0, default=None),
                     "quasi_multiplier": Number("", 0.0, 20.0, default=None),
-                    "strength": Number("N/m", 10.0, 1e6, default=None),
-                    "stiffness": Number("N/m per rad", 1e3, 1e9, default=None), "envelope": envelope, "nails": nails,
+                    "strength": Number("N/m", 100.0, 1e6, default=None),
+                    "stiffness": Number("N/m per rad", 1e4, 1e9, default=None), "envelope": envelope, "nails": nails,
                     "saws": saws, "friction_force": Number("N/m", 0.0, 1e5, default=None),
                     "reload_share": Number("", 0.0, 1.0, default=None),
                     "reload_target": Number("", 1.0, 2.0, default=None),
@@ -132,7 +134,7 @@ joint_rule = Record({"between": ListOf(ListOf(Choice(KINDS), scalar=True, most=l
                      "kind": word(), "across": Flag(False),
                      "number": Number("fittings", 1, 100, whole=True, default=1),
                      "share": Number("", 0.01, 1.0, default=1.0),
-                     "strength": Number("N", 10.0, infinite=True, default=None)})
+                     "strength": Number("N", 100.0, infinite=True, default=None)})
 _broken = Record({"count": Number("joints", 1, 10000, whole=True), "end": Choice(("top", "bottom"), None)},
                  default=None)
 damage_region = Record({"structure": word(None), "side": Choice(SIDES), "storey": storey, "column_beam": _broken,

@@ -1,23 +1,28 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """House files -> tables. `extends` merges a file into the one that it extends: a file beside it or a shipped one."""
-from functools import reduce
+import warnings
 from pathlib import Path
 
 from ..base.input_file import is_file, read_bytes, shown
 from .errors import HouseError
 from .limits import MAX_FILE_SIZE, MAX_FILES, MAX_NODES
-from .parser import Table, parse_table
+from .parser import Items, Table, parse_table
 
 COMMON = ("base", "paper", "plated")
 """Shipped files that houses extend: materials and joints; frame of the paper's houses; joints with metal plates."""
 SUFFIXES = (".yaml", ".yml")
 """Of house files that another file names."""
+ADDS = "+"
+"""Ending of a key whose list is added to the inherited one."""
 SHIPPED = Path(__file__).resolve().parents[1] / "data" / "houses"
 
 
 def load_table(path):
     """File `path` with everything it extends merged in; raises HouseError with file and line."""
-    return reduce(merge, reversed([table for _, table in _chain(Path(path))]))
+    *files, (_, table) = _chain(Path(path))
+    for file, change in reversed(files):
+        table = merge(table, change, quiet=file.parent == SHIPPED)
+    return table
 
 
 _known_chains: dict = {}
@@ -91,14 +96,44 @@ def shipped_paths(name):
     return [SHIPPED / name] if name.endswith(".yaml") else [SHIPPED / f"model{name}.yaml", SHIPPED / f"{name}.yaml"]
 
 
-def merge(base, change):
-    """`change` over `base`: tables entry by entry, null removes an entry, all else is replaced as a whole."""
+def merge(base, change, path="", quiet=False):
+    """`change` over `base`: tables entry by entry, null removes an entry, the list of `key+` is added to that of `key`,
+    all else is replaced as a whole. path: of the tables; quiet: say nothing of replaced lists. Raises HouseError."""
     result = Table(base, change.where, base.entries)
     for key, value in change.items():
         if value is None:
             result.pop(key, None)
             continue
-        below = base[key] if isinstance(base.get(key), Table) else Table()
-        result[key] = merge(below, value) if isinstance(value, Table) else value
-        result.entries[key] = change.at(key)
+        where, name = change.at(key), f"{path}.{key}".lstrip(".")
+        if key.endswith(ADDS):
+            key = key.removesuffix(ADDS)
+            value = added(result.get(key), value, where, name)
+        elif isinstance(value, Table):
+            below = base[key] if isinstance(base.get(key), Table) else Table()
+            value = merge(below, value, name, quiet)
+        elif not quiet:
+            note_replaced(base.get(key), value, where, name)
+        result[key], result.entries[key] = value, where
     return result
+
+
+def added(items, more, where, name):
+    """Items of both lists. name: of the key in messages, with its +"""
+    for value in (items, more):
+        if not isinstance(value, (list, type(None))):
+            raise HouseError(f"{where}: {name}: adds to a list, got {shown(value)}")
+    both = [entry for entry in (items, more) if entry is not None]
+    return Items(sum(map(list, both), []), where, sum((entry.entries for entry in both), []))
+
+
+_noted: set = set()
+"""Replacements that were noted: a run reads its house file several times."""
+
+
+def note_replaced(items, value, where, name):
+    """Warn of a list of tables, as walls or braces, that another one replaces."""
+    replaced = isinstance(items, list) and any(isinstance(item, Table) for item in items) and items != value
+    if replaced and value and (where, name) not in _noted:
+        _noted.add((where, name))
+        warnings.warn(f"{where}: {name} replaces the {len(items)} inherited entries; {name}{ADDS} adds to them",
+                      stacklevel=2)

@@ -6,7 +6,7 @@ from ..base.input_file import shown
 from .description import checked, house_path
 from .errors import HouseError
 from .limits import MAX_DEPTH
-from .loader import load_table
+from .loader import ADDS, added, load_table, note_replaced
 from .parser import Items, Table, parse_value
 from .schema import NAME
 
@@ -28,7 +28,7 @@ def changed_house(name_or_path, settings=(), braces=(), strength=1.0, where="{}"
         Shipped house or house file.
     settings : sequence of str
         Keys of the house file, list items from 1: 'joint_types.corner_fitting.strength=7000',
-        'friction[1].coefficient=0.3'.
+        'friction[1].coefficient=0.3'. A list is added to the present one by 'structures.main.walls+=[...]'.
     braces : sequence of str
         Names of braces and walls to add: 'main.brace1.EW.y0.3-4' (storey 1, along x at y node 0, foot at 3),
         'main.wall1.EW.y0.3-4.plywood'.
@@ -68,12 +68,18 @@ def _set(data, text, where):
     key, sign, value = text.partition("=")
     if not sign:
         raise HouseError(f"{where}: {shown(text)}: write key=value")
-    *steps, last = _steps(key, where)
+    *steps, last = _steps(key.removesuffix(ADDS), where)
     node = data
     for step in steps:  # a missing entry of a table becomes an empty table, checked later
         node = node.setdefault(step, Table(where=where)) if _has_entry(node, step, key, where) else node[step]
     parsed = parse_value(value, where)
-    if _has_entry(node, last, key, where):
+    is_entry = _has_entry(node, last, key, where)
+    present = node.get(last) if is_entry else node[last]
+    if key.endswith(ADDS):
+        parsed = added(present, parsed, where, key)
+    else:
+        note_replaced(present, parsed, where, key)
+    if is_entry:
         node.entries[last] = where
     else:
         node.entries[last:last + 1] = [where]

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Pushover curve of each storey and direction: its shear over its drift at first loading, floors rigid, no torsion.
+"""Pushover curve of each storey and direction: its shear over its drift at first loading, floors rigid, no torsion; and
+the natural periods with the secant stiffness of the curves at a drift.
 
 Walls have their envelopes at the level of the house; braces pull with the springs of both ends until the weaker one
 breaks and bear nothing in compression. Column ends and P-delta are left out.
@@ -8,8 +9,10 @@ from collections import defaultdict
 
 import numpy as np
 
+from ..base.gravity import weight_of
 from ..base.joint_kinds import WALL_COLUMN
 from .loads import bay_length
+from .weight import level_masses
 
 SHARES = 2.0
 """Halves of a wall: each spring stands for one. [-] (walls.py, SHARE)"""
@@ -74,3 +77,33 @@ def _sum(curves):
     drifts = np.unique(np.concatenate([drift for drift, _ in curves]).round(6))
     total = sum(np.interp(drifts, drift, shear) for drift, shear in curves)
     return [[round(float(drift), 6), round(float(shear) / 1000, 3)] for drift, shear in zip(drifts, total)]
+
+
+def secant_periods(model, group, curves, drift):
+    """{direction: period [s]} with all storeys at this drift, the lowest mode of one mass at each level, snow included.
+
+    Stiffness of a storey: shear / (drift x height). Beside the walls and braces of `pushover`, columns of width b that
+    rock under the weight W above bear W (b / height - drift): their resistance less P-delta. None where columns bear
+    more than walls and braces in a storey: how storeys share the drift decides there.
+    """
+    storeys, masses = sorted(model.storey_levels[group]), level_masses(model, group)
+    heights = np.array([np.subtract(*reversed(model.storey_levels[group][storey])) for storey in storeys])
+    weights = 1000 * weight_of(np.cumsum(masses[::-1])[::-1])  # [N]
+    periods = {}
+    for axis, direction in enumerate(DIRECTIONS):
+        curve = [np.transpose(curves[storey, direction] or [(0.0, 0.0)]) for storey in storeys]
+        shears = [1000 * np.interp(drift, drifts, forces, right=0.0) for drifts, forces in curve]
+        widths = [np.mean([np.ptp(column.vertices[:, axis]) for column in model.of_kind("column", group=group)
+                           if column.storey == storey]) for storey in storeys]
+        rocking = weights * (widths / heights - drift)
+        stiffness = (shears + rocking) / (drift * heights)  # [N/m]
+        periods[direction] = _lowest_period(stiffness, masses) if all(shears > abs(rocking)) else None
+    return periods
+
+
+def _lowest_period(stiffness, masses):
+    """Of a chain of springs from the ground up: K x = omega^2 M x, made symmetric. [N/m], [kg] -> [s]"""
+    above = np.append(stiffness[1:], 0.0)
+    matrix = np.diag(stiffness + above) - np.diag(above[:-1], 1) - np.diag(above[:-1], -1)
+    omega2 = np.linalg.eigvalsh(matrix / np.sqrt(np.outer(masses, masses)))
+    return round(float(2 * np.pi / np.sqrt(omega2[0])), 3)

@@ -21,6 +21,7 @@ NAME = r"[\w-]+"
 """Names that the user chooses. Dots and brackets are reserved for paths to single keys and for names of braces."""
 OTHER_UNITS = {"m": (("mm", 1e-3), ("cm", 1e-2)), "kg/m3": (("g/cm3", 1e3),), "Pa": (("MPa", 1e6), ("GPa", 1e9)),
                "N/m": (("kN/m", 1e3), ("N/mm", 1e3), ("kN/mm", 1e6)), "N": (("kN", 1e3),),
+               "N/m per rad": (("kN/m per rad", 1e3),), "rad": (("%", 1e-2),),
                "kN/m2": (("N/m2", 1e-3), ("kg/m2", GRAVITY / 1000)), "rise over run": (("sun (tenths)", 0.1),)}
 """Units often used by mistake: unit of the schema -> (unit, factor)."""
 _FRACTION = re.compile(r"(\d{1,9}(?:\.\d{1,9})?) ?/ ?(\d{1,9}(?:\.\d{1,9})?)")

@@ -43,6 +43,8 @@ ROUNDING = 1e-9
 """Of shears. [-]"""
 LEAST_SHEAR = 100.0
 """Of the largest shear of an envelope, below which it is taken to be in kN. [N/m]"""
+LEAST_FRICTION = 1e-3
+"""Of the largest shear: a friction force between zero and this is taken to be in kN. [-]"""
 QUASI_LIMIT = 1.5
 """Largest multiplier of a quasi-bearing wall. [-] (Notification 1100 as of 2025; compared: kenchiku-spec of
 wall_quantity.py)"""
@@ -181,6 +183,9 @@ def _check_cycles(table, path):
         if table["friction_force"] is not None and not table["friction_force"] < largest:
             fail(table.at("friction_force"), f"{path}.friction_force",
                  f"must be below the largest shear, {largest:.4g} N/m, got {table['friction_force']:g}")
+        if table["friction_force"] and table["friction_force"] < LEAST_FRICTION * largest:
+            fail(table.at("friction_force"), f"{path}.friction_force", f"{table['friction_force']:g} N/m is below"
+                 f" {LEAST_FRICTION:g} of the largest shear, {largest:.4g} N/m; kN are 1000 N")
 
 
 _CHECKS = {"envelope": _check_envelope, "nails": _check_nails, "saws": _check_saws}

@@ -32,6 +32,12 @@ def floor_area(model, group, storey):
     return model.plans[group][storey].area
 
 
+def level_masses(model, group):
+    """Masses of the levels of a structure from below, with snow. [kg]"""
+    members = [e for e in model.elements if e.group == group and not e.fixed]
+    return [sum(_share(e, storey) * e.mass for e in members) for storey in sorted(model.storey_levels[group])]
+
+
 def _storeys(model, group):
     members = [e for e in model.elements if e.group == group and not e.fixed and e.kind != "snow"]
     levels, carried = {}, 0.0

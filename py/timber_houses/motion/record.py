@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A three-component ground acceleration in the axes of the house, and its units."""
+import warnings
 from dataclasses import dataclass, field
 from datetime import datetime
 
@@ -15,6 +16,8 @@ STANDARD_GRAVITY = 9.80665
 UNITS = {"gal": GAL, "cm/s2": GAL, "cm/s/s": GAL, "cm/s^2": GAL, "cm/sec2": GAL, "cm/sec/sec": GAL, "m/s2": 1.0,
          "m/s/s": 1.0, "m/s^2": 1.0, "g": STANDARD_GRAVITY}
 """Known spellings of acceleration units and their size in m/s2."""
+WEAK = 0.01 * GAL, 10 * GAL
+"""Peaks that are none of an earthquake, but usual numbers in m/s2 or g. [m/s2]"""
 MAX_ACCELERATION = 1e3
 """Largest acceleration of a ground motion. [m/s2] The largest recorded ones are below 50."""
 
@@ -24,7 +27,7 @@ class RecordError(InputError):
 
 
 class RecordWarning(UserWarning):
-    """A usable record that contradicts its own header or exceeds recorded motions."""
+    """A usable record that contradicts its own header, exceeds recorded motions or is too weak for any house."""
 
 
 @dataclass(frozen=True)
@@ -129,6 +132,16 @@ def require_possible(peak, where):
     if not peak <= MAX_ACCELERATION:
         raise RecordError(f"{where}: accelerations of up to {peak:.3g} m/s2; at most {MAX_ACCELERATION:g} m/s2; check"
                           " the unit and the scale")
+
+
+def warn_of_weak_motion(motion, scale=1.0):
+    """Warn of a peak that is none of an earthquake but a number in another unit. scale: factor [-]"""
+    peak = scale * float(np.abs(motion.acceleration).max())
+    if WEAK[0] <= peak < WEAK[1]:
+        number = peak / GAL
+        warnings.warn(f"{motion.name}: peak {number:.2g} gal, too weak for any damage; did you mean {number:.2g} m/s2"
+                      f" ({number / GAL:.0f} gal) or {number:.2g} g ({number * STANDARD_GRAVITY / GAL:.0f} gal)?",
+                      RecordWarning, stacklevel=3)
 
 
 def unit_factor(unit, where):

@@ -11,7 +11,7 @@ from ..base.options import add_options, check_ranges, command_option, is_given, 
 from .constant_part import warn_of_constant_part
 from .processing import highpass, remove_polynomial, resample, scaled_to_intensity, scaled_to_pga, trim, turned
 from .readers import DEFAULT_RECORD, read_unchecked
-from .record import RecordError, require_possible
+from .record import RecordError, require_possible, warn_of_weak_motion
 from .sequence import DEFAULT_GAP, following, joined
 from .synthetic import DEFAULT_SEED, synthetic_motion
 
@@ -98,6 +98,7 @@ class MotionRequest:
                               (scaled_to_intensity, self.intensity)):
             motion = motion if value is None else change(motion, value)
         self._require_possible(motion)
+        warn_of_weak_motion(motion, self.factor)
         warn_of_constant_part(motion)
         return resample(motion, dt)[0] if self.resample else motion
 

@@ -6,5 +6,6 @@ TOWN = MAP, PAGE = ("map.png", "town.html")
 """Files of a town."""
 OWNER = {"en": "owner.en.html", "ja": "owner.ja.html"}
 """{language: page for the owner of a house}"""
-VERDICTS = {"undamaged": "#009E73", "repairable": "#E69F00", "unsafe": "#D55E00", "collapsed": "#222222"}
+VERDICTS = {"undamaged": "#009E73", "repairable": "#E69F00", "unsafe": "#D55E00", "total loss": "#8C1C13",
+            "collapsed": "#222222"}
 """Colours of the verdicts."""

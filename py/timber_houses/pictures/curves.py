@@ -11,7 +11,7 @@ from ..recording.walls import of_walls, sheet_states
 from ..text.english import DRIFT_LINES
 from .energy import TERMS
 from .figures import A4, drawable, footer, heading, heading_height, new_figure
-from .key_times import first_shown
+from .key_times import first_shown, last_shown
 from .provenance import provenance
 from .sheets import result
 from .style import default_style
@@ -43,11 +43,11 @@ def page(frames, dpi):
     draw_breaks(axes[2], frames)
     draw_energy(axes[3], history)
     draw_events(figure.axes, frames.summary)
-    start = first_shown(frames)
+    start, end = first_shown(frames), last_shown(frames)
     for axis in figure.axes:
         axis.grid(alpha=0.25)
         axis.tick_params(labelsize=8)
-        axis.set_xlim(start, frames.time[-1])
+        axis.set_xlim(start, end)
         axis.yaxis.set_label_coords(LABEL_PLACE, 0.5)  # to align them otherwise, all ticks are drawn once more
     rest = f"; ground and house are at rest before {start:.1f} s" if start else ""
     figure.axes[-1].set_xlabel(f"time [s]{rest}", fontsize=9)

@@ -21,6 +21,10 @@ AT_REST = 1e-3
 """Before the shaking a house with smaller storey drifts is at rest. [-]"""
 STRONGEST, FIRST_DAMAGE = "strongest shaking", "first damage"
 """Captions."""
+FAINT = 0.02
+"""Acceleration after the shaking over the peak. [-]"""
+LAG = 2.0
+"""Time shown after the last change. [s]"""
 LEAD = 1.0
 """Time shown before the shaking. [s]"""
 
@@ -115,6 +119,18 @@ def first_shown(frames):
     moving = frames.history.time[frames.history.largest_drift() > AT_REST]
     first = min([*moving[:1], *frames.breaks["time"][:1], np.inf])
     return float(start) if 0 < start < first else 0.0
+
+
+def last_shown(frames):
+    """Time at which curves end: LAG after the last shaking, motion of the house and broken joint, or the run's end. [s]
+    """
+    if frames.motion is None or not frames.history:
+        return float(frames.time[-1])
+    strong = np.abs(frames.motion.acceleration).max(1) >= FAINT * np.abs(frames.motion.acceleration).max()
+    drifts = frames.history.largest_drift()
+    moving = frames.history.time[np.abs(drifts - drifts[-1:]) > AT_REST]
+    last = max([*frames.motion.time[strong][-1:], *moving[-1:], *frames.breaks["time"][-1:]], default=0.0)
+    return min(float(last) + LAG, float(frames.time[-1]))
 
 
 def last_change(frames):

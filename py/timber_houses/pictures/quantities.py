@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""One page of engineering quantities of a run: storey shears, accelerations, modes, joints, uplift, energy."""
+"""One page of engineering quantities of a run: storey shears, accelerations, modes, joints, uplift."""
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,7 +15,6 @@ from ..recording.quantities import NAME as STOREYS
 from ..recording.summary import Summary
 from ..text.english import direction_name, mode_name, period_text, ratio, sentence
 from ..text.lines import before
-from .energy import TERMS
 from .figures import A4, drawable, fitting_size, heading, heading_height, new_figure
 from .style import default_style
 
@@ -70,7 +69,6 @@ def page(results, dpi):
     draw_joints(figure.add_subplot(lower[0]), results)
     draw_uplift(figure.add_subplot(lower[1]), results)
     draw_modes(figure.add_subplot(rows[3, 0]), results)
-    draw_energy(figure.add_subplot(rows[3, 1]), results)
     heading(figure, f"House {results.summary.model}. Quantities{before(results.summary.quantities)}", text)
     return figure
 
@@ -136,17 +134,28 @@ def draw_accelerations(axis, results):
     axis.legend(fontsize=7, frameon=False, loc="lower right")
 
 
+FULL = 0.995
+"""Utilisation that is printed as 1.00. [-]"""
+
+
+def nearest_to_failure(rows, most):
+    """Rows of joints.csv with the largest utilisation below 1.00: all others have reached their strength. [-]"""
+    return [row for row in rows if float(row["utilisation [-]"]) < FULL][:most]
+
+
 def draw_joints(axis, results):
-    rows = results.joints[:SHOWN_JOINTS]
+    """Joints nearest to failure; no bars where all have reached their strength."""
+    rows = nearest_to_failure(results.joints, SHOWN_JOINTS)
     fills = [STATES.get(row["state"], colors.GREY) for row in rows]
     axis.barh(range(len(rows)), [float(row["utilisation [-]"]) for row in rows], color=fills, height=0.7, alpha=0.5)
     axis.set_yticks([])
     for k, row in enumerate(rows):
         axis.text(0.02, k, drawable(row["joint"].replace("|", " | "), 46), fontsize=6, va="center")
     axis.invert_yaxis()
-    axis.set_xlim(0, max(1.05, axis.get_xlim()[1]))
+    axis.set_xlim(0, 1.05)
     axis.axvline(1, color="black", lw=0.7, ls=":")
-    style(axis, "utilisation of joints [-]; orange: broken, amber: partly")
+    reached = sum(float(row["utilisation [-]"]) >= FULL for row in results.joints)
+    style(axis, f"utilisation of joints [-]; {reached} more have reached 1")
 
 
 def draw_uplift(axis, results):
@@ -192,13 +201,3 @@ def draw_modes(axis, results):
     levels = len(results.summary.quantities.storeys)
     axis.set_yticks(range(levels + 1), ["ground", *(f"level {k}" for k in range(1, levels + 1))])
     style(axis, "natural modes: thin before, thick after the run")
-
-
-def draw_energy(axis, results):
-    energy = results.summary.energy
-    terms = [term for term in TERMS if energy.dissipated.get(term.name)]
-    values = [energy.dissipated[term.name] / 1e3 for term in terms]
-    axis.barh([term.label for term in terms], values, color=[term.color for term in terms], height=0.7)
-    axis.invert_yaxis()
-    axis.locator_params(axis="x", nbins=5)
-    style(axis, f"dissipated energy: {sum(values):.3g} kJ of {energy.input / 1e3:.3g} kJ", "[kJ]")

@@ -15,19 +15,20 @@ from ..base.atomic_write import write_text, written_whole
 from ..base.errors import RunError
 from ..base.gravity import weight_of
 from ..base.html import html
+from ..base.joint_kinds import WALL_COLUMN
 from ..base.options import words
 from ..motion import GroundMotion, pga, pgv
 from ..motion.measures import stated_intensity
 from ..recording import frames as recording
 from ..recording import verdict
-from ..recording.failures import first_failures
+from ..recording.failures import first_failures, place
 from ..text.english import counted, directed, mode_name, period_text, sentence, storey_name
 from ..text.lines import before, lines
 from . import REPORT, VERDICTS, fonts, pushover, quantities, report_pictures
 from .style import default_style
 
 PAGE, PDF = REPORT
-JOINTS_SHOWN = 8
+JOINTS_SHOWN = 6
 """Rows of the table of joints."""
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 PATIENCE = 120.0
@@ -86,7 +87,8 @@ def page(frames, results):
         failures=failed_joints(frames, results, failures),
         others=others(frames, results) if failures else None,
         joints=joints(results),
-        limits="; ".join(f"1/{round(1 / limit.drift)} {limit.name} ({limit.source})" for limit in verdict.LIMITS),
+        at_strength=at_strength(results),
+        limits="; ".join(f"{limit.text} ({limit.source})" for limit in (*verdict.LIMITS, verdict.LOSS)),
         caveats=caveats(summary),
         versions=versions(summary),
         command=command(summary.made_from["options"]),
@@ -128,8 +130,16 @@ def house(frames, summary, failures):
     periods = ", ".join(f"{mode_name(mode)} {period_text(mode)}" for axis in ("ns", "ew")
                         if (mode := summary.main_mode("before", axis)))
     index = f"By the diagnosis of engineers: {summary.diagnosis.sentence}. {summary.diagnosis.disagreement}"
-    natural = f" Natural periods {periods}." if periods else ""
-    return f"{legend}. {numbers}. {weight(summary.weight)}{natural} {index}"
+    walls = f" {sentence_of_walls(summary)}." if summary.walls else ""
+    natural = f" Natural periods of small vibrations {periods}." if periods else ""
+    return f"{legend}. {numbers}. {weight(summary.weight)}{walls}{natural} {index}"
+
+
+def sentence_of_walls(summary):
+    """'Walls of the level mean; the verdict with design walls is the same'."""
+    level, other = summary.walls.level, summary.walls.other
+    same = "the same" if other and other.verdict == summary.main.verdict else other and other.verdict
+    return f"Walls of the level {level}" + (f"; the verdict with {other.level} walls is {same}" if other else "")
 
 
 def storeys(summary):
@@ -166,24 +176,35 @@ def joints(results):
     units = {"utilisation [-]": (1, 2), "pull [N]": (1e-3, 1), "shear [N]": (1e-3, 1), "opening [m]": (1e3, 0)}
     return [{"joint": joint_name(row["joint"]), "state": row["state"],
              "numbers": [f"{factor * float(row[column]):.{digits}f}" for column, (factor, digits) in units.items()]}
-            for row in results.joints[:JOINTS_SHOWN]]
+            for row in quantities.nearest_to_failure(results.joints, JOINTS_SHOWN)]
+
+
+def at_strength(results):
+    """'27 of 412 joints have reached their strength: 3 broken, 20 partly, 4 whole.'; walls included."""
+    reached = [row["state"] for row in results.joints if float(row["utilisation [-]"]) >= quantities.FULL]
+    states = ", ".join(f"{reached.count(state)} {state}" for state in dict.fromkeys(reached))
+    return (f"{len(reached)} of {len(results.joints)} joints have reached their strength"
+            f"{f': {states}' if reached else ''}.")
 
 
 def failed_joints(frames, results, failures):
-    """Rows of the table of the first failures of a house that has collapsed."""
+    """Rows of the table of the first failures of a house that has collapsed; forces are the largest of their joints."""
     by_name, joint = {row["joint"]: row for row in results.joints}, frames.joints
     rows = []
     for failure in failures:
-        number = failure.joint
-        row, storey = by_name[joint.name[number]], joint.storey[number]
+        number, more = failure.joints[0], len(failure.joints) - 1
+        mine = [by_name[joint.name[each]] for each in failure.joints]
+        bay, material = place(frames, number)
+        bay = bay.partition(".")[2] if joint.storey[number].isdigit() else bay  # of the main structure
+        kind = "" if joint.kind[number] == WALL_COLUMN else f"{joint.kind[number].replace('_', '-')}, "
         rows.append({
             "time": f"{failure.time:.2f}",
-            "joint": joint_name(row["joint"]),
-            "place": f"{joint.kind[number].replace('_', '-')}, {'storey ' * storey.isdigit()}{storey},"
-                     f" {joint.side[number].replace('+', ', ')}",
+            "joint": ", ".join(joint_name(row["joint"]) for row in mine),
+            "place": f"{kind}{bay}, {material}{f' and {more} more' * (more > 0)}",
             "cause": failure.cause,
             "drift": "" if failure.drift is None else directed(failure.drift, failure.direction),
-            "forces": [f"{float(row[column]) / 1e3:.1f}" for column in ("pull [N]", "shear [N]", "strength [N]")],
+            "forces": [f"{max(float(row[column]) for row in mine) / 1e3:.1f}"
+                       for column in ("pull [N]", "shear [N]", "strength [N]")],
         })
     return rows
 

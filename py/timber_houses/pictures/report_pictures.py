@@ -9,6 +9,7 @@ from ..motion import GAL, response_spectrum
 from ..recording.history import DIRECTIONS
 from ..text.english import direction_name
 from .figures import heading_height, new_figure
+from .key_times import first_shown, last_shown
 from .sheets import Format, result, sheet
 from .style import default_style
 from .views import FRONT, SIDE
@@ -67,15 +68,16 @@ def draw_plan(axis, frames, storey):
 
 
 def draw_failures(axis, frames, storey, failures):
-    """Numbers of the failures in a storey at their joints, those at one place in a row."""
+    """Numbers of the failures in a storey at the first of their joints, those at one place in a row."""
     places = frames.joint_places(0)
     rows = {}
     for number, failure in enumerate(failures, 1):
-        if frames.elements.storey[frames.joints.a[failure.joint]] == storey:
-            rows.setdefault(tuple(places[failure.joint][:2].round(0)), []).append((number, places[failure.joint][:2]))
+        joint = failure.joints[0]
+        if frames.elements.storey[frames.joints.a[joint]] == storey:
+            rows.setdefault(tuple(places[joint][:2].round(0)), {})[number] = places[joint][:2]
     for row in rows.values():
-        at = np.mean([place for _, place in row], axis=0)
-        text = " ".join(str(number) for number, _ in row)
+        at = np.mean(list(row.values()), axis=0)
+        text = " ".join(map(str, row))
         axis.text(*at, text, fontsize=6.5, fontweight="bold", color="white", ha="center", va="center", zorder=6,
                   bbox={"boxstyle": "round,pad=0.18", "facecolor": colors.ORANGE, "edgecolor": "white", "lw": 0.5})
 
@@ -97,7 +99,8 @@ def motion(frames):
     left, right = figure.subplots(1, 2, width_ratios=(1.2, 1))
     figure.subplots_adjust(left=0.11, right=0.985, top=0.9, bottom=0.2, wspace=0.34)
     recorded = frames.motion
-    shown = recorded.time <= frames.time[-1]
+    start, end = first_shown(frames), last_shown(frames)
+    shown = (recorded.time >= start) & (recorded.time <= end)
     for direction, column in (("ew", 0), ("ns", 1)):
         values = np.asarray(recorded.acceleration)[:, column]
         left.plot(recorded.time[shown], values[shown] / GAL, color=colors.DIRECTIONS[direction], lw=0.4,

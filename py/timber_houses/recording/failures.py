@@ -1,34 +1,61 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The first failures of a run: which joint, when, why, at which storey drift."""
+"""The first failures of a run: which joints, when, why, at which storey drift."""
 from dataclasses import dataclass
 
 import numpy as np
 
+from ..base.joint_kinds import WALL_COLUMN
+
 MOST = 8
 """Number of failures."""
+ONE_TIME = 0.05
+"""Failures of like joints within this time are one. [s]"""
 
 
 @dataclass(frozen=True)
 class Failure:
-    """Break of a joint's first spring. joint: its number; drift: of its storey then, None in another structure [-]"""
+    """Break of the first springs of like joints at one time. joints: their numbers; drift: of their storey then, None
+    in another structure [-]"""
 
     time: float
-    joint: int
+    joints: tuple
     cause: str
     drift: float
     direction: str
 
 
 def first_failures(frames, most=MOST):
-    """The joints whose first springs break first, in the order of time. Fewer where fewer break."""
+    """The failures of the joints whose first springs break first, in the order of time. Fewer where fewer break."""
     if frames.breaks is None:
         return []
     first = {}
     for time, joint, cause in sorted(zip(*(frames.breaks[key] for key in ("time", "joint", "cause"))),
                                      key=lambda entry: entry[0]):
         first.setdefault(int(joint), (float(time), cause))
-    return [Failure(time, joint, cause, *_drift(frames, joint, time))
-            for joint, (time, cause) in list(first.items())[:most]]
+    groups = {}
+    for joint, (time, cause) in first.items():
+        like = material(frames, joint), frames.joints.storey[joint], cause
+        earlier = groups.setdefault(like, [])
+        if not earlier or time - earlier[-1][0] > ONE_TIME:
+            earlier.append((time, []))
+        earlier[-1][1].append(joint)
+    return sorted((Failure(time, tuple(joints), cause, *_drift(frames, joints[0], time))
+                   for (_, _, cause), times in groups.items() for time, joints in times),
+                  key=lambda failure: (failure.time, failure.joints))[:most]
+
+
+def material(frames, joint):
+    """'plywood' of a wall's sheet, else the kind of the joint: 'column-beam'."""
+    return place(frames, joint)[1] if frames.joints.kind[joint] == WALL_COLUMN else (
+        frames.joints.kind[joint].replace("_", "-"))
+
+
+def place(frames, joint):
+    """('main.wall1.EW.y0.3-4', 'plywood') of a wall's sheet; ('main.column1.x0y0', material of this member) else."""
+    name, first = frames.joints.name[joint], frames.joints.a[joint]
+    if frames.joints.kind[joint] == WALL_COLUMN:
+        return tuple(name.removesuffix(".columns").rpartition(".")[::2])
+    return frames.elements.name[first], frames.elements.material[first]
 
 
 def _drift(frames, joint, time):

@@ -180,6 +180,11 @@ class Motion(_ShortRepr):
         reached = np.flatnonzero(np.abs(self.acceleration).max(1) >= acceleration)
         return float(self.time[reached[0]]) if len(reached) else None
 
+    def last(self, acceleration):
+        """Time from which on the ground has less than an acceleration [m/s2] in all directions. [s]"""
+        reached = np.flatnonzero(np.abs(self.acceleration).max(1) >= acceleration)
+        return float(self.time[reached[-1]] + self.dt) if len(reached) else self.start
+
 
 @dataclass(repr=False)
 class Frames:

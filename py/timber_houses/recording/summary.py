@@ -101,6 +101,7 @@ class Summary:
     lot: str | None = optional()
     ensemble: Ensemble | None = optional()
     column_drift: ColumnDrifts | None = optional()
+    rest_s: float | None = None
 
     @classmethod
     def read(cls, folder):

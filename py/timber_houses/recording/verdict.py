@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Verdict on each structure of a run: undamaged, repairable, unsafe or collapsed.
+"""Verdict on each structure of a run, and the limits of each word with their sources.
 
 collapsed   a level has come down by half its storey
+total loss  the residual drift reached the limit of damage certificates
 unsafe      a storey drift or the drift at a column reached the safety limit, or a column has fallen or lost its last
             joint
 repairable  such a drift reached the damage limit, or springs of joints broke
@@ -13,7 +14,8 @@ exceeds the tilt.
 import math
 from dataclasses import dataclass, field
 
-UNDAMAGED, REPAIRABLE, UNSAFE, COLLAPSED = STATES = ("undamaged", "repairable", "unsafe", "collapsed")
+UNDAMAGED, REPAIRABLE, UNSAFE, TOTAL_LOSS, COLLAPSED = STATES = (
+    "undamaged", "repairable", "unsafe", "total loss", "collapsed")
 """From the best to the worst."""
 
 
@@ -42,6 +44,9 @@ SAFETY = Limit(1 / 30, "safety limit", "Japan Building Disaster Prevention Assoc
                " houses; limit strength calculation")
 TILT = Limit(1 / 10, "tilt", "this package: the weight of the upper storey begins to overturn the house")
 LIMITS = (DAMAGE, SAFETY, TILT)
+"""Of peak drifts."""
+LOSS = Limit(1 / 20, "limit of a total loss", "Cabinet Office of Japan, guidelines for damage certificates of houses:"
+             " tilt of outer walls or columns; of the residual drift")
 FALL = 1 / 2
 """Height by which a level of a collapsed structure has come down, over that of its storey. [-]"""
 FALLEN_ANGLE = math.radians(45)
@@ -71,6 +76,8 @@ def _judge(facts):
     if facts.collapsed:
         return COLLAPSED
     drift = max(facts.peak_drift, facts.column_drift)
+    if facts.residual_drift >= LOSS.drift:
+        return TOTAL_LOSS
     if drift >= SAFETY.drift or facts.columns_lost:
         return UNSAFE
     if drift >= DAMAGE.drift or facts.broken or facts.partly_broken:

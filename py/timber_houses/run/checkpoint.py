@@ -42,6 +42,7 @@ class Progress:
     peaks: dict[str, float]
     modes: ModesAt | None
     upright: list
+    at_rest: float | None
 
 
 CLASSES = {*_class_names, "Aabb", "ForceResetter", "InsertionSortCollider", "InteractionLoop"}

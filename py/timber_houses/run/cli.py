@@ -5,7 +5,7 @@ import re
 from pathlib import Path
 
 from ..base.errors import RunError
-from ..base.options import BY_SCRIPT, add_options, command_option, options, read_arguments
+from ..base.options import BY_SCRIPT, HIDDEN, add_options, command_option, options, read_arguments
 from ..base.remedies import close
 from ..motion import with_then
 from ..text import english
@@ -44,8 +44,8 @@ def parser(script, file=None, loads=""):
     if file:
         reader.add_argument(file, metavar=file.upper(),
                           help="town file" if file == "town" else options(RunOptions)["house"].metadata["help"])
-    for group in ("main", *GROUPS):
-        place = reader if group == "main" else reader.add_argument_group(GROUPS[group])
+    for group in ("main", *GROUPS, HIDDEN):
+        place = reader if group in ("main", HIDDEN) else reader.add_argument_group(GROUPS[group])
         add_options(place, [field for field in offered.values() if field.metadata["group"] == group])
     return reader
 

@@ -104,5 +104,5 @@ def record_frame():
     if live and live.is_tagged() and O.iter + 1 < live.steps:
         live.take(O.time + O.dt)
         live.tell(O.time + O.dt)
-        if live.collapse_ends_it():
+        if live.is_over():
             live.steps = O.stopAtIter = O.iter + 1

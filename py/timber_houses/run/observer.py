@@ -27,6 +27,14 @@ SETTLED = 1.0
 """Time at which the house has settled under its weight, and its first natural modes are taken. [s]"""
 HARMFUL = 0.5
 """Ground acceleration that damages no sound house: half of the design earthquake. [m/s2]"""
+SPENT = 0.2
+"""Ground acceleration that moves no wreck: friction holds 2 m/s2 and more. [m/s2]"""
+REST_SPEED = 0.02
+"""Largest speed of a body at rest in a wreck: its sway in such a ground motion stays below. [m/s]"""
+ROLLING = 0.01
+"""Share of the free mass that may still move in a wreck at rest: single members that roll away. [-]"""
+REST_TIME = 3.0
+"""A run ends when its wreck has been at rest for so long, and the motion is spent. [s]"""
 BREAKS = ("time", "joint", "spring", "cause", "force")
 """Attributes of a JointBreak, columns of frames.h5's /breaks."""
 O = yw.Omega()
@@ -134,6 +142,12 @@ def set_limits(monitor):
     monitor.updateAttrs({"tiltDrift": TILT.drift, "fallDrop": FALL, "fallenAngle": FALLEN_ANGLE})
 
 
+def moving_share():
+    """Share of the free mass in bodies faster than REST_SPEED. [-]"""
+    free = [(b.state.mass, b.state.vel.norm()) for b in O.bodies if b is not None and not b.state.blockedDOFs]
+    return sum(mass for mass, speed in free if speed > REST_SPEED) / sum(mass for mass, _ in free)
+
+
 class Observer:
     """Notes events, peak drifts of structures and first natural modes of the run. progress: of a checkpoint"""
 
@@ -147,15 +161,31 @@ class Observer:
         set_limits(find_engine(yw.HouseMonitor))
         motion = describe_motion()
         self.shaking = motion and motion.first(HARMFUL)
+        self.spent = motion.last(SPENT) if motion else 0.0
+        self.at_rest = progress["at_rest"] if progress else None  # since when the wreck is [s]
 
     def progress(self):
         """What a checkpoint must hold besides the scene: the argument `progress`."""
-        return {"events": self.log.encoded(), "peaks": self.peaks, "modes": encode(self.modes), "upright": self.upright}
+        return {"events": self.log.encoded(), "peaks": self.peaks, "modes": encode(self.modes), "upright": self.upright,
+                "at_rest": self.at_rest}
 
     @property
     def main_levels(self):
         """damage.Level of the main structure, from below."""
         return [level for level in self.survey.levels if level.structure == self.survey.structures[0]]
+
+    @property
+    def is_over(self):
+        """Whether the wreck has been at rest for REST_TIME, and the motion is spent."""
+        return self.at_rest is not None and O.time - self.at_rest >= REST_TIME - O.dt / 2
+
+    def _watch_wreck(self, time):
+        """Note since when the bodies of a collapsed house are at rest after the motion. time [s]"""
+        is_wreck = math.isfinite(find_engine(yw.HouseMonitor).collapseTime) and time >= self.spent
+        if not is_wreck or moving_share() > ROLLING:
+            self.at_rest = None
+        elif self.at_rest is None:
+            self.at_rest = time
 
     def fall(self):
         """Start of a collapsed house's fall: a storey tilts, or a floor is down [s]; None if it stands."""
@@ -186,6 +216,7 @@ class Observer:
             self.log.add(monitor.tiltTime, Tilt(monitor.tiltDirection))
         if math.isfinite(monitor.collapseTime):
             self.log.add(monitor.collapseTime, Collapse())
+        self._watch_wreck(time)
         state = self.state()
         self.log.observe(time, state)
         if self.modes is None and time > SETTLED - O.dt / 2:

@@ -79,15 +79,15 @@ class RunOptions(MotionRequest):
     no_frames: bool = option(bool, "record no frames and make no pictures", group="run", decides=False)
     quiet: bool = option(bool, "print errors only", group="run", decides=False)
     every_step: bool = option(
-        bool, "compute every step (default: steps are skipped while house and ground are at rest)", group="expert"
+        bool, "compute every step (default: steps are skipped while house and ground are at rest)", group="hidden"
     )
     disturb: int = option(int, f"seed: move each vertex of free members by a random vector of at most {LARGEST:g} m",
-                          "SEED", 1, MOST_SEED, group="expert")
+                          "SEED", 1, MOST_SEED, group="hidden")
     export: Path = option(Path,
                           "write the scene at the start as JSON for other solvers (with --duration 0: nothing else)",
-                          "FILE", group="expert", decides=False)
+                          "FILE", group="hidden", decides=False)
     or_anew: bool = option(bool, "with --resume: start anew when the checkpoint cannot be used, instead of an error",
-                           group="expert", decides=False)
+                           group="hidden", decides=False)
 
     name: str | None = None
     town: str | None = None

@@ -23,7 +23,11 @@ class TownPlan:
 def planned(options):
     """Scenario, or TownPlan of a town. Raises HouseError, RecordError."""
     with noted():
-        motion = options.motion(options.dt, options.ground_motion) if options.shaken else None
+        return _planned(options)
+
+
+def _planned(options):
+    motion = options.motion(options.dt, options.ground_motion) if options.shaken else None
     if options.town is None:
         return _scenario(options, motion)
     town = load_town(options.town)
@@ -40,7 +44,8 @@ def _scenario(options, motion, delay=0.0, last=0.0):
     snow = options.snow if options.snow is not None else load_house(options.house).data["snow"]["depth"]
     return Scenario(options.title, options.house, motion, snow_depth=snow, scale=options.factor,
                     delay=delay if motion else 0.0, dt=options.dt, duration=duration,
-                    until_collapse=options.until_collapse, joint_damping=options.joint_damping,
+                    until_collapse=options.until_collapse, until_rest=options.duration is None,
+                    joint_damping=options.joint_damping,
                     wall_level=options.walls, disturb=options.disturb,
                     options={"skip_rest": 0} if options.every_step else {},
                     record=motion and record(motion, options.factor, options.dt, delay))

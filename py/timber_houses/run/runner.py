@@ -181,11 +181,11 @@ class Run(Stoppable):
         return O.iter + min(max(1, left - 1), self.chunk - O.iter % self.chunk)
 
     def after_chunk(self):
-        """Check the numbers, end the run after a collapse, record a frame, save a checkpoint when it is due. Raises
+        """Check the numbers, end a run that is over, record a frame, save a checkpoint when it is due. Raises
         PhysicsError, and Interrupted after a signal."""
         with physics_errors():
             find_engine(yw.HealthCheck).check()
-        if self.collapse_ends_it():
+        if self.is_over():
             self.steps = O.iter
         if O.iter == self.steps:
             return
@@ -196,9 +196,10 @@ class Run(Stoppable):
         if self.signal:
             raise Interrupted(self.signal, O.time)
 
-    def collapse_ends_it(self):
-        """Whether the run ends now because its house has collapsed."""
-        return self.scenario.until_collapse and math.isfinite(find_engine(yw.HouseMonitor).collapseTime)
+    def is_over(self):
+        """Whether the run ends now because its house has collapsed, or its wreck has come to rest."""
+        collapsed = self.scenario.until_collapse and math.isfinite(find_engine(yw.HouseMonitor).collapseTime)
+        return collapsed or self.scenario.until_rest and self.observer.is_over
 
     def take(self, time, last=False):
         """Note events and record a frame of the scene as it is now. time [s]; last: whether it is the final state."""

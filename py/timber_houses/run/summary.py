@@ -67,6 +67,7 @@ def summary(scenario, observed, tables, wall_s, made_from, cut_off=None):
         events=observed.log.sorted(), energy=energy, solver=solver(), versions=Versions(**observer.versions()),
         structures=structures, quantities=quantities.summarised(tables, observed), verdict="", sentence="",
         made_from=made_from,
+        rest_s=observed.at_rest if scenario.until_rest and observed.is_over else None,
         column_drift=ColumnDrifts(drift.by_storey(monitor.columnPeak), drift.by_storey(monitor.medianPeak)),
     )
     return judged(draft)

@@ -29,8 +29,9 @@ class Scenario:
     """House, loads and time of a run. house: name of a shipped house or path of a YAML file; motion: GroundMotion or
     None; snow_depth [m].
 
-    scale: factor on the motion [-]; delay: time at which it begins [s]; dt, duration [s]; until_collapse: whether a
-    collapse ends the run; joint_damping: damping ratio of sway and joints [-], wall_level: of walls of a rated
+    scale: factor on the motion [-]; delay: time at which it begins [s]; dt, duration [s]; until_collapse, until_rest:
+    whether a collapse ends the run, whether the rest of its wreck does; joint_damping: ratio of sway and joints
+    [-], wall_level: of walls of a rated
     multiplier, None for both: the house's own; disturb: seed of the house's disturbance, None: none; options: of
     `engines.engines`; record, other_walls: of the summary, on the motion and on walls of the other level; lot: of a
     town.
@@ -45,6 +46,7 @@ class Scenario:
     dt: float = DEFAULT_DT
     duration: float = 30.0
     until_collapse: bool = False
+    until_rest: bool = False
     joint_damping: float | None = None
     wall_level: str | None = None
     disturb: int | None = None

@@ -52,7 +52,9 @@ def cut_off(summary):
 
 
 def early(summary):
-    """Remark on a run that ends before or in the strong shaking; empty for others."""
+    """Remark on a run that ends before or in the strong shaking, or with the rest of its wreck; empty for others."""
+    if summary.rest_s is not None:
+        return f"the run ends at {summary.duration_s:.0f} s, since the wreck is at rest from {summary.rest_s:.0f} s on"
     onset, end = summary.missed_shaking or (None, None)
     if onset is None:
         return ""
@@ -117,7 +119,8 @@ def outcome(summary):
                else f"below the {verdict.DAMAGE.name} of {ratio(verdict.DAMAGE.drift)}")
     torsion = at_columns(summary)
     lean = " and leans at the end" if summary.main.leans else ""
-    return f"is {summary.main.verdict}{lean}: peak storey drift {peak}, {meaning}{torsion}"
+    article = "a " * (summary.main.verdict == verdict.TOTAL_LOSS)
+    return f"is {article}{summary.main.verdict}{lean}: peak storey drift {peak}, {meaning}{torsion}"
 
 
 def at_columns(summary):
@@ -140,11 +143,12 @@ def other_walls(summary):
 
 
 def residual(summary):
-    """Residual drift after a peak beyond the damage limit, amplitude of the motion that remains."""
+    """Residual drift after a peak beyond the damage limit, its own limit, amplitude of the motion that remains."""
     parts = []
     drift, _, direction = summary.largest_drift("residual_drift")
     if not summary.collapsed and summary.largest_drift()[0] >= verdict.DAMAGE.drift:
-        parts.append(f"residual drift {directed(drift, direction)}")
+        loss = f" beyond the {verdict.LOSS.name} of {verdict.LOSS.ratio}" * (drift >= verdict.LOSS.drift)
+        parts.append(f"residual drift {directed(drift, direction)}{loss}")
     if summary.still_moving and not summary.collapsed:
         amplitude, _, direction = summary.largest_drift("final_amplitude")
         parts.append(f"still moving by ±{directed(amplitude, direction)}")
@@ -297,7 +301,8 @@ def ratio(drift, below="below "):
     if drift < SMALL:
         return f"{below}1/1000"
     number = round(1 / drift)
-    number += any(drift < limit.drift and number == round(1 / limit.drift) for limit in verdict.LIMITS)
+    number += any(drift < limit.drift and number == round(1 / limit.drift)
+                  for limit in (*verdict.LIMITS, verdict.LOSS))
     return f"1/{number}" if drift <= 0.5 else f"{drift:.2f}"
 
 
@@ -337,6 +342,7 @@ def cut_line(text, most=LONGEST_TEXT):
 MEANING = {"undamaged": "No damage that needs repair is expected.",
            "repairable": "Damage that can be repaired: finishes crack, joints loosen. Have the house examined.",
            "unsafe": "Nobody may enter the house before an engineer has examined it.",
+           "total loss": "The house leans so far that it cannot be repaired. Nobody may enter it.",
            "collapsed": "A storey comes down: people inside are in danger of their lives."}
 """Of the verdicts."""
 OUTCOMES = {state: state for state in verdict.STATES}

@@ -10,7 +10,8 @@ SIDES = {"north": "北", "south": "南", "east": "東", "west": "西"}
 STRUCTURES = {"entrance": "玄関"}
 ORIGIN = {"none": "地動なし", "motion": "地動", "record": "記録", "intensity": "計測震度", "step": "時間刻み"}
 """Words of pictures/provenance.py."""
-OUTCOMES = {"undamaged": "無被害", "repairable": "補修可能", "unsafe": "危険", "collapsed": "倒壊", "failed": "計算失敗"}
+OUTCOMES = {"undamaged": "無被害", "repairable": "補修可能", "unsafe": "危険", "total loss": "全壊",
+            "collapsed": "倒壊", "failed": "計算失敗"}
 LEVELS = {"damage limit": "損傷の始まり", "safety limit": "大きな損傷"}
 
 
@@ -112,6 +113,8 @@ def snow(summary):
 
 
 def early(summary):
+    if summary.rest_s is not None:
+        return f"{summary.rest_s:.0f} 秒から瓦礫が静止したため、{summary.duration_s:.0f} 秒で計算を終了"
     onset, end = summary.missed_shaking or (None, None)
     if onset is None:
         return ""
@@ -205,6 +208,7 @@ def below(drift):
 MEANING = {"undamaged": "補修が必要な被害は予想されません。",
            "repairable": "補修できる被害（仕上げのひび割れ、接合部のゆるみ）です。専門家の点検を受けてください。",
            "unsafe": "専門家が調査するまで、立ち入らないでください。",
+           "total loss": "傾きが大きく、補修できません。立ち入らないでください。",
            "collapsed": "階がつぶれ、中にいる人の命に危険があります。"}
 OWNER = {"start": "はじめ", "end": "終わり", "events": "できごと", "seconds": "秒",
          "note": "一つの地震についての計算例です。安全を保証するものではありません。専門家に相談してください。"}

@@ -31,6 +31,8 @@ def verdicts(summary):
         limit = verdict.passed(peak)
         reason = f"peak drift {ratio(peak)}{' at a column' * (peak > facts.peak_drift)}"
         reason += f" reaches the {limit.name} of {ratio(limit.drift)}" if limit else ""
+        if facts.verdict == verdict.TOTAL_LOSS:
+            reason = f"residual drift {ratio(facts.residual_drift)} reaches the {verdict.LOSS.text}"
         columns = f"; {counted(facts.columns_lost, 'column')} lost" if facts.columns_lost else ""
         yield f"{name.capitalize()}: {facts.verdict}{', leans' if facts.leans else ''}; {reason}{columns}."
 
@@ -95,13 +97,13 @@ def pulls(quantities):
 
 
 def periods(summary):
-    """Main natural periods before and after the run."""
+    """Main natural periods of small vibrations before and after the run."""
     texts = []
     for when in ("before", "after"):
         parts = [f"{mode_name(mode)} {period_text(mode)}" for axis in DIRECTIONS
                  if (mode := summary.main_mode(when, axis))]
         texts += [f"{when} the run {', '.join(parts)}"] if parts else []
-    return f"Natural periods {'; '.join(texts)}." if texts else ""
+    return f"Natural periods of small vibrations {'; '.join(texts)}." if texts else ""
 
 
 def events(summary, most):
