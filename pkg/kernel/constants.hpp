@@ -162,7 +162,8 @@ constexpr int newtonBodies = 40;
 constexpr double firstSoftness = 0.1, leastSoftness = 1e-6, softnessShare = 0.01;
 constexpr int softnessLevels = 12;
 
-/// Most steps of Newton's method to a root, and |r| there over the momenta. [-] Ten steps are usual; rounding leaves 1e-10.
+/// Most steps of Newton's method to a root, and |r| there over the momenta. [-] Ten steps are usual; rounding leaves
+/// 1e-10.
 constexpr int newtonSteps = 20;
 constexpr double newtonTolerance = 1e-9;
 

@@ -18,11 +18,11 @@
 
 namespace timber {
 
-using Vec12 = Eigen::Matrix<double, 12, 1>;
-using Mat12 = Eigen::Matrix<double, 12, 12>;
-using Mat3x12 = Eigen::Matrix<double, 3, 12>;
-
 namespace {
+
+	using Vec12 = Eigen::Matrix<double, 12, 1>;
+	using Mat12 = Eigen::Matrix<double, 12, 12>;
+	using Mat3x12 = Eigen::Matrix<double, 3, 12>;
 
 	Mat3x12 matrixOf(const PairVector (&rows)[3])
 	{

@@ -4,7 +4,8 @@
 
 elements.pvd  polygons; cell data: element (number), kind (code, names in the field data kind_names), storey, fixed;
               point data: displacement since the start [m]
-sheets.pvd    polygons of the wall sheets; cell data: sheet (number), state (0 intact, 1 partly broken, 2 broken)
+sheets.pvd    of a scene with wall sheets: their polygons; cell data: sheet (number), state (0 intact, 1 partly broken,
+              2 broken)
 joints.pvd    for each joint a point on either element and the line between them; point data: joint (number), kind,
               load [-] (largest spring force over strength), state (0 intact, 1 partly broken, 2 broken, 3 broken before
               the start)
@@ -37,8 +38,8 @@ def export(folder, frames, every=1):
     make_folder(folder)
     last = len(frames.time) - 1
     chosen = [(frames.time[k], k) for k in sorted({*range(0, last + 1, every), last})]
-    series = {"elements": (elements(frames), chosen), "sheets": (sheets(frames), chosen),
-              "joints": (joints(frames), chosen),
+    walls = {"sheets": (sheets(frames), chosen)} if frames.sheets.type else {}
+    series = {"elements": (elements(frames), chosen), **walls, "joints": (joints(frames), chosen),
               "contacts": (contacts(frames), [(time, k) for k, time in enumerate(frames.contacts.time)])}
     return [write_series(folder, name, make, numbers) for name, (make, numbers) in series.items()]
 
