@@ -2,6 +2,7 @@
 #include <HouseMonitor.hpp>
 #include <Gravity.hpp>
 #include <bodies.hpp>
+#include <kernel/portable_math.hpp>
 #include <sampling.hpp>
 #include <validation.hpp>
 
@@ -187,7 +188,7 @@ boost::python::list HouseMonitor::pyColumns() const
 void HouseMonitor::recordColumns()
 {
 	const std::vector<bool> joined = joinedBodies(*scene);
-	const Real leastVertical = std::isfinite(fallenAngle) ? math::cos(fallenAngle) : -1;
+	const Real leastVertical = std::isfinite(fallenAngle) ? timber::cosine(fallenAngle) : -1;
 	std::vector<std::vector<Real>> drifts(2 * heights.size()); // in the order of peak
 	for (size_t k = 0; k < math::min(columnBodies.size(), columnStoreys.size()); ++k) {
 		const Body* b = bodyAt(*scene, columnBodies[k]);

@@ -116,13 +116,19 @@ class ContactSolver::Newton {
 		}
 		return t;
 	}
-	/// Steps 1 to 4 with the present softness. Returns whether they converge.
+	/// Steps 1 to 4 with the present softness. Returns whether they converge. The last root is found to rounding: its
+	/// error would be created energy.
 	bool findRoot()
 	{
 		const double kinetic = std::sqrt(solver.twiceKinetic);
+		double last = std::numeric_limits<double>::infinity();
 		for (int k = 0; k < newtonSteps; ++k) {
 			const Eigen::VectorXd r = residual(W, true);
-			if (r.norm() <= newtonTolerance * (W.norm() + kinetic)) return true;
+			const double size = r.norm();
+			if (size <= newtonTolerance * (W.norm() + kinetic)) {
+				if (softness > leastSoftness || size == 0 || size > 0.1 * last) return true;
+				last = size;
+			}
 			const Eigen::VectorXd direction = -A.partialPivLu().solve(r);
 			if (!direction.allFinite()) return false;
 			W += lengthOfStep(direction, direction.dot(r)) * direction;

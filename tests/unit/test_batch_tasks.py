@@ -53,8 +53,8 @@ def test_changed_houses_are_written(row, tmp_path):
 @pytest.mark.parametrize(
     "columns, values, parts",
     [
-        ("house snow", "A 0.0005", ["runs.txt:2", "0.001", "20"]),
-        ("house snow", "A -1", ["runs.txt:2, column snow", "0", "20"]),
+        ("house snow", "A 0.0005", ["runs.txt:2", "0.001", "6"]),
+        ("house snow", "A -1", ["runs.txt:2, column snow", "0", "6"]),
         ("house joint_damping", "A 1.5", ["runs.txt:2, column joint_damping", "0", "1"]),
         ("house dt", "A 1e-2", ["runs.txt:2, column dt"]),
         ("house dt", "A nan", ["runs.txt:2, column dt"]),

@@ -229,7 +229,7 @@ def test_the_japanese_result_has_all_warnings():
                                "entrance": Structure(broken=2, peak_drift=5e-4)
                            }, events=[Event(12.0, ColumnsLost(1, 90)),
                                       Event(13.5, SnowFallen("", "west", "roof"))])
-    parts = ("危険（最後に傾いている）", "なお ±1/50（南北）で揺れている", "柱 90 本のうち1 本が倒れた、3 本が外れた（12.0 秒から）", "雪は 13.5 秒から落下",
+    parts = ("全壊（最後に傾いている）", "なお ±1/50（南北）で揺れている", "柱 90 本のうち1 本が倒れた、3 本が外れた（12.0 秒から）", "雪は 13.5 秒から落下",
              "強い揺れ（18.8 秒）の前で計算を終了", "玄関は補修可能（最大層間変形角 1/1000 未満）")
     assert [part for part in parts if part not in japanese.result(found)] == [], japanese.result(found)
 
@@ -238,7 +238,7 @@ def test_the_japanese_result_of_a_run_that_ends_in_the_strong_shaking():
     found = sample_summary(record={"onset_s": 18.8, "strong_end_s": 27.0}, duration_s=20.0,
                            structures={"entrance": Structure(peak_drift=0.3, residual_drift=0.2)})
     assert "強い揺れ（18.8～27.0 秒）の途中で計算を終了" in japanese.result(found)
-    assert "玄関は危険（最後に傾いている）（最大層間変形角 1/3）" in japanese.result(found)
+    assert "玄関は全壊（最後に傾いている）（最大層間変形角 1/3）" in japanese.result(found)
 
 
 def test_the_japanese_result_says_what_is_not_to_be_relied_on():
