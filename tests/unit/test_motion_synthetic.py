@@ -16,7 +16,7 @@ sys.path.insert(0, str(ROOT / "py"))
 from timber_houses import motion as gm
 from timber_houses.motion.synthetic import DEFAULT_SEED
 
-SEEDS = range(7)
+SEEDS = [0, 1, *(pytest.param(seed, marks=pytest.mark.rare) for seed in range(2, 7))]
 PEAKS = {
     "PGA NS": (1147.0, lambda m: gm.pga(m, "ns")),
     "PGA EW": (1308.0, lambda m: gm.pga(m, "ew")),
@@ -29,7 +29,7 @@ PEAKS = {
 made = lru_cache(gm.synthetic_motion)
 
 
-@pytest.mark.parametrize("seed", [*SEEDS[:2], *(pytest.param(seed, marks=pytest.mark.rare) for seed in SEEDS[2:])])
+@pytest.mark.parametrize("seed", SEEDS)
 def test_targets_are_met_for_every_seed(seed):
     """The published values within 5 % (intensity within 0.05), the spectrum above 500 cm/s all over 0.6-0.7 s."""
     motion = made(seed)

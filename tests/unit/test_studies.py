@@ -76,6 +76,7 @@ def test_no_curve_from_few_motions():
     assert not fragility.has_curve(curve) and fragility.median_text(curve) == "19 motions a point; a curve needs 20"
 
 
+@pytest.mark.rare
 def test_the_band_covers_the_true_median():
     """Samples of a curve of median 0.9: the 95 % interval of the median holds it in 8 of 10 or more with a probability
     of 98.8 %.
