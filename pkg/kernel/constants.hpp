@@ -144,7 +144,7 @@ constexpr double thresholdDrop = 0.25;
 
 /// Sweeps over changing pairs; accelerated ones follow. [-] Larger: more sweeps where light members are pressed between
 /// heavy ones; smaller: accelerated sweeps, which visit all pairs, where a few more plain ones are enough.
-constexpr int plainSweeps = 200;
+constexpr int plainSweeps = 500;
 
 /// Accelerated sweeps before Newton's method is tried first, and between two tries. [-] In stacks of boards of 0.2 to 2
 /// kg under blocks of 200 to 2400 kg it takes as long as some 500 sweeps. First one smaller: where a few more sweeps

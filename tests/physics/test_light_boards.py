@@ -59,7 +59,7 @@ def test_a_cube_under_ten_tonnes_stays():
 
 def test_boards_at_rest_do_not_jitter():
     """Velocities of a stack that has settled change by at most 1e-4 m/s a step: its swing of 1e-3 m/s and 20 rad/s by
-    1e-5 m/s, an error that the sweeps of a step leave to the next one by 1e-3 m/s. Of the steps of its fall 4 in 5000
+    1e-5 m/s, an error that the sweeps of a step leave to the next one by 1e-3 m/s. Of the steps of its fall 1 in 5000
     do not converge; 700 to 1700 by sweeps alone."""
     stack(1)
     O.dt, O.engines = 5e-4, yt.engines()
