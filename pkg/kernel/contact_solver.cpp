@@ -357,7 +357,7 @@ bool ContactSolver::sweepAccelerated(double threshold, int& sweeps)
 	visitUnknowns([&](double& x, double) { direction.before.push_back(x); });
 	direction.direction.resize(direction.before.size(), 0);
 	for (int k = 0;; ++k) {
-		if (k % newtonInterval == newtonFirst && tryNewton()) return true;
+		if (k > 0 && k % newtonInterval == 0 && tryNewton()) return true;
 		++sweeps;
 		if (!sweepAll(threshold) && !returnsTooMuch()) return true;
 		if (sweeps >= maxSweeps) return false;

@@ -27,7 +27,7 @@
 ///     Z <- Z' + gamma G,   G <- gamma G + (Z' - Z),   gamma = |Z' - Z|^2 / |Z' - Z|^2 of the sweep before    (9)
 /// with all impulses and velocities Z before, Z' after a sweep; gamma >= 1 starts anew with G = Z' - Z and no step
 /// (nonlinear conjugate gradients after Fletcher and Reeves; Silcowitz, Niebe and Erleben, Visual Comput. 26 (2010),
-/// 893-901). They end after a sweep, so that (3) to (6) hold. If newtonFirst of them are not enough, Newton's method is
+/// 893-901). They end after a sweep, so that (3) to (6) hold. If newtonInterval of them are not enough, Newton's method is
 /// tried (contact_newton.cpp).
 ///
 /// Mass-weighted velocities: W = R^-1 V for the velocities and spins V of a pair, R R^T: the inverse of its mass matrix
