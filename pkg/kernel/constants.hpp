@@ -151,8 +151,8 @@ constexpr int plainSweeps = 500;
 /// with 3.4 instead of 1.1 m/s); larger: longer steps.
 constexpr int newtonInterval = 2000;
 
-/// Most free bodies of an island that Newton's method solves: its matrix has six rows for each. [-] Larger: a step takes
-/// longer than maxSweeps.
+/// Most free bodies of an island that Newton's method solves. [-] Its matrix has six rows for each: the cost grows with
+/// their cube.
 constexpr int newtonBodies = 40;
 
 /// Softness of a point whose account limits its impulse (point_law.hpp): in the first root of Newton's method, in the

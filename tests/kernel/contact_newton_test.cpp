@@ -10,12 +10,6 @@ using namespace timber::shapes;
 
 namespace {
 
-double logUniform(Random& random, double low, double high)
-{
-	return std::exp(uniform(random, std::log(low), std::log(high)));
-}
-bool oneOf(Random& random, int n) { return uniform(random, 0, n) < 1; }
-
 /// A point between two bodies of 0.1 kg to 1 t: loaded or new, hardening or linear, with an account or none.
 PointStep randomPoint(Random& random)
 {

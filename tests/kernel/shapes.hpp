@@ -16,6 +16,14 @@ inline double uniform(Random& random, double low, double high)
 	return std::uniform_real_distribution<double>(low, high)(random);
 }
 
+/// Random number whose logarithm is uniformly distributed.
+inline double logUniform(Random& random, double low, double high)
+{
+	return std::exp(uniform(random, std::log(low), std::log(high)));
+}
+/// True once in n times.
+inline bool oneOf(Random& random, int n) { return uniform(random, 0, n) < 1; }
+
 inline Vec3 randomVector(Random& random, double size)
 {
 	const double x = uniform(random, -size, size), y = uniform(random, -size, size),

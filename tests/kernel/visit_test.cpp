@@ -11,12 +11,6 @@ using namespace timber::shapes;
 
 namespace {
 
-double logUniform(Random& random, double low, double high)
-{
-	return std::exp(uniform(random, std::log(low), std::log(high)));
-}
-bool oneOf(Random& random, int n) { return uniform(random, 0, n) < 1; }
-
 /// A point of any law, light and heavy, loaded and loose, hardening, in an impact or not. The response is that of a
 /// point alone.
 PointStep randomPoint(Random& random)
