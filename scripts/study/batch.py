@@ -11,8 +11,7 @@ Exit status 1 when a run failed or is unfinished.
 import sys
 from pathlib import Path
 
-SCRIPTS = Path(__file__).resolve().parents[1]
-sys.path.append(str(SCRIPTS.parent / "py"))  # after the installed package, which the runs use
+sys.path.append(str(Path(__file__).resolve().parents[2] / "py"))  # after the installed package, which the runs use
 
 from timber_houses.study.batch import RUNS, BatchError, read_table, run_rows, write_runs
 from timber_houses.study.batch.table import COLUMNS
@@ -48,7 +47,7 @@ def main():
         return run_one(rows, options.only, folder)
     try:
         if not options.collect:
-            run_rows(rows, folder, SCRIPTS, options.jobs, options.retry)
+            run_rows(rows, folder, options.jobs, options.retry)
     finally:
         found = write_runs(rows, folder)
     report(found, folder)
@@ -60,7 +59,7 @@ def run_one(rows, key, folder):
     chosen = [row for row in rows if key in (row.name, str(row.line))]
     if not chosen:
         raise BatchError(f"--only {key}: no run of that name or line")
-    return int(None in run_rows(chosen, folder, SCRIPTS, jobs=1).values())
+    return int(None in run_rows(chosen, folder, jobs=1).values())
 
 
 def report(found, folder):

@@ -20,6 +20,9 @@ from scipy.special import ndtr
 from study_common import house_name, parser, run_all, save, write_table
 
 from timber_houses.base.colors import BLUE, GREEN, GREY, ORANGE
+from timber_houses.base.time_step import DEFAULT_DT
+from timber_houses.run.options import RunOptions
+from timber_houses.study.batch import Row
 from timber_houses.study.options import count, list_of, non_negative, positive, run_script
 
 SCALES = {"A": [0.5, 0.7, 0.85, 1.0, 1.25], "B": [0.8, 1.0, 1.25, 1.6, 2.0], "C": [1.0, 1.25, 1.6, 2.0, 2.5]}
@@ -54,20 +57,15 @@ def arguments():
 
 def rows(options):
     """Rows of the batch: house x snow x scale x seed."""
-    return [
-        {
-            "house": house_name(house),
-            "description": f"snow{snow:g}_scale{scale:g}_seed{seed}",
-            "snow": f"{snow:g}",
-            "scale": f"{scale:g}",
-            "seed": seed,
-            "until_collapse": "yes",
-        }
-        for house in options.houses.split(",")
-        for snow in options.snow
-        for scale in options.scales or SCALES.get(house, SCALES["B"])
-        for seed in range(1, options.seeds + 1)
-    ]
+    return [row(options, house, snow, scale, seed) for house in options.houses.split(",") for snow in options.snow
+            for scale in options.scales or SCALES.get(house, SCALES["B"]) for seed in range(1, options.seeds + 1)]
+
+
+def row(options, house, snow, scale, seed):
+    name = f"snow{snow:g}_scale{scale:g}_seed{seed}"
+    return Row(RunOptions(house=house_name(house), quake=True, snow=snow, scale=scale, seed=seed, until_collapse=True,
+                          start=options.start, end=options.end, dt=options.dt or DEFAULT_DT), description=name,
+               place=name)
 
 
 def points(found):
@@ -76,7 +74,7 @@ def points(found):
     """
     groups = {}
     for entry in found:
-        groups.setdefault((entry["house"], float(entry["snow"]), float(entry["scale"])), []).append(entry)
+        groups.setdefault((entry["house"], entry["snow"], entry["scale"]), []).append(entry)
     return [_point(label(house), snow, scale, entries) for (house, snow, scale), entries in groups.items()]
 
 

@@ -16,7 +16,7 @@ continues.
 from dataclasses import replace
 from pathlib import Path
 
-from study_common import SCRIPTS, house_name
+from study_common import house_name
 
 from timber_houses.base.atomic_write import write_text
 from timber_houses.base.errors import RunError
@@ -97,19 +97,14 @@ def ranking_of(options):
         motions.records(options.records, target, options.units) if options.records else motions.seeds(number, target)
     )
     if options.end is not None and not options.records:
-        shaking = [(name, {**cells, "end": f"{options.end:g}"}) for name, cells in shaking]
+        shaking = [(name, {**cells, "end": options.end}) for name, cells in shaking]
     needed = race.needed_motions(len(found))
     if len(shaking) < needed:
         raise RunError(
             f"{len(shaking)} motions are too few to select and to test {len(found)} measures; give at least {needed}"
         )
-    same = {
-        "house": options.house,
-        "snow": f"{options.snow:g}",
-        "until_collapse": "yes",
-        **({"dt": f"{options.dt:g}"} if options.dt else {}),
-    }
-    return Ranking(options.out, found, shaking, same, SCRIPTS, options.jobs)
+    same = {"house": options.house, "snow": options.snow, "until_collapse": True, "dt": options.dt or DEFAULT_DT}
+    return Ranking(options.out, found, shaking, same, options.jobs)
 
 
 def cheaper(ranking, options):
@@ -126,15 +121,9 @@ def pictures(ranking, results, number):
     """
     worst = max(ranking.tests, key=lambda motion: race.response(ranking.house.runs[motion]))
     chosen = [ranking.house, *(result.entry for result in results[:number] if worst in result.entry.runs)]
-    tasks = []
-    for entry in chosen:
-        task = ranking.task(entry, worst)
-        tasks.append(
-            Task(
-                task.script, ranking.folder / "pictures" / entry.candidate.name, replace(task.options, no_frames=False)
-            )
-        )
-    done = run_missing(tasks, SCRIPTS, ranking.jobs)
+    tasks = [Task(ranking.folder / "pictures" / entry.candidate.name,
+                  replace(ranking.task(entry, worst).options, no_frames=False)) for entry in chosen]
+    done = run_missing(tasks, ranking.jobs)
     for task in (task for task in tasks if done[task]):
         all_pictures.write(task.folder)
         report.write(task.folder)

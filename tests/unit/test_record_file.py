@@ -26,7 +26,7 @@ READERS = {
     "history.csv": lambda folder: History.read(folder / "history.csv"),
     "breaks.csv": lambda folder: peaks.rows(folder / "breaks.csv"),
     "joints.csv": peaks.read,
-    "run.json": lambda folder: Task("run", folder, RunOptions(house="A")).error,
+    "run.json": lambda folder: Task(folder, RunOptions(house="A")).error,
 }
 """{file: what reads it in a folder}. The checkpoint: test_cli_errors."""
 

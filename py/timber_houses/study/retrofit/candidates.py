@@ -9,6 +9,7 @@ from ...base.atomic_write import write_text
 from ...house import (HouseError, brace_parts, build_house, changed_house, free_bays, free_wall_bays, load_house,
                       wall_parts)
 from ...house.parser import house_text
+from ..batch import HouseChanges
 
 KINDS = ("brace", "wall", "fitting", "snow")
 USUAL_KINDS = ("brace", "fitting", "snow")
@@ -21,11 +22,12 @@ GROUPS = ("bay", "wall")
 
 @dataclass(frozen=True)
 class Candidate:
-    """name: of its runs; text: for people; changes: {column: text} of a batch table that differ from the house."""
+    """name: of its runs; text: for people; changes of the house; options: {option: value} of its runs."""
 
     name: str
     text: str
-    changes: dict = field(default_factory=dict)
+    changes: HouseChanges = HouseChanges()
+    options: dict = field(default_factory=dict)
 
 
 AS_IT_IS = Candidate("as_it_is", "house as it is")
@@ -44,7 +46,7 @@ def candidates(house, snow, kinds=USUAL_KINDS, texts=("",), group="bay"):
     if "fitting" in kinds:
         chosen += fittings(description, model)
     if "snow" in kinds and snow > 0:
-        chosen.append(Candidate("snow_cleared", "snow cleared from the roofs", {"snow": "0"}))
+        chosen.append(Candidate("snow_cleared", "snow cleared from the roofs", options={"snow": 0.0}))
     return [candidate for candidate in chosen if any(text in candidate.name for text in texts)]
 
 
@@ -70,20 +72,20 @@ def fittings(description, model):
     """Double fittings in each group of joints that occurs and can break."""
     groups, types = description.data["joints"], description.data["joint_types"]
     kinds = {joint.kind for joint in model.joints if math.isfinite(joint.strength)}
-    return [Candidate(f"double_{name}", f"double fittings: {name.replace('_', ' ')}", {"set": _doubled(name, group)})
+    return [Candidate(f"double_{name}", f"double fittings: {name.replace('_', ' ')}",
+                      HouseChanges(set=_doubled(name, group)))
             for name, group in groups.items()
             if group["kind"] in kinds and math.isfinite(types[group["type"]]["strength"])]
 
 
 def _doubled(name, group):
-    """Value of the column `set`: twice the number of fittings, and the strength where the group has its own."""
-    strength = "" if group.get("strength") is None else f";joints.{name}.strength={2 * group['strength']:g}"
-    return f"joints.{name}.number={2 * group.get('number', 1):g}{strength}"
+    """Settings: twice the number of fittings, and the strength where the group has its own."""
+    return tuple(f"joints.{name}.{key}={2 * group[key]:g}" for key in ("number", "strength") if group[key] is not None)
 
 
 def in_bays(model, names):
     """A measure for each brace or wall. names: in the order of free_bays"""
-    return [Candidate(name, bay_text(model, name), {"braces": name}) for name in names]
+    return [Candidate(name, bay_text(model, name), HouseChanges(braces=(name,))) for name in names]
 
 
 def in_walls(model, names):
@@ -91,7 +93,7 @@ def in_walls(model, names):
     lines = {}
     for name in names:
         lines.setdefault(bay_line(name), []).append(name)
-    return [Candidate(line, line_text(model, bays[0], len(bays)), {"braces": ";".join(bays)})
+    return [Candidate(line, line_text(model, bays[0], len(bays)), HouseChanges(braces=tuple(bays)))
             for line, bays in lines.items()]
 
 
