@@ -129,7 +129,7 @@ def test_film_shows_the_same(run):
 
 def test_player_has_the_same_plates(run):
     plates, arrays = panels.plates(run), player.arrays(run)
-    assert player.info(run, player.peaks.Peaks())["plates"] == [
+    assert player.info(run)["plates"] == [
         {"body": plate.body, "sheet": plate.sheet, "torn": plate.torn} for plate in plates]
     assert arrays["plate_vertices"][0] == pytest.approx(np.concatenate([plate.vertices for plate in plates]))
 

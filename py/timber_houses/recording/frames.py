@@ -26,6 +26,10 @@ attributes   format, title (house and loads), scenario, model, version (of the p
 /motion      only with an earthquake: attributes dt [s], start [s]; acceleration (M, 3) [m/s2] as applied, displacement
              (M, 3) [m] of the ground
 /history     of an ended run: columns (names with units), rows; the table of history.csv
+/storeys     of an ended run of a house: likewise, the table of storeys.csv
+/joint_peaks of an ended run of a house: load [-], pull, shear [N], opening [m] (J,): largest, before its fall if any
+/columns     of an ended run of a house: element; uplift of its foot [m]; state ('standing', 'fallen', 'loose'); the
+             largest uplift first
 /breaks      of an ended run: time [s], joint, spring, cause, force [N]; one entry for each spring that broke
 
 Frames are recorded FRAMES_PER_SECOND times per simulated second from t = 0, and at the last step. Until the run has
@@ -48,6 +52,7 @@ from ..base.json_types import encode
 from ..base.time_step import rest_stride
 from . import append_log, frame_log, scene_log
 from .history import History
+from .quantities import Storeys
 from .summary import ANEW, Summary, parse
 from .table_file import FAULTS, Group, opened
 
@@ -81,6 +86,9 @@ LAYOUT = {
     "motion": Group({"acceleration": ("number", "M", 3), "displacement": ("number", "M", 3)},
                     {"dt": "number", "start": "number"}),
     "history": Group({"columns": ("text", "columns"), "rows": ("number", "samples", "columns")}),
+    "storeys": Group({"columns": ("text", "quantities"), "rows": ("number", "intervals", "quantities")}),
+    "joint_peaks": Group(dict.fromkeys(("load", "pull", "shear", "opening"), ("number", "J"))),
+    "columns": Group({"element": ("whole", "O"), "uplift": ("number", "O"), "state": ("text", "O")}),
     "breaks": Group({"time": ("number", "B"), "joint": ("whole", "B"), "spring": ("whole", "B"), "cause": ("text", "B"),
                      "force": ("number", "B")}),
 }
@@ -190,8 +198,8 @@ class Motion(_ShortRepr):
 class Frames:
     """The file's content. time, position, orientation, load, broken: arrays, or lists during a run.
 
-    scenario: '' of a user's scene; summary: Summary, of a town TownSummary; history: History; breaks: dictionary of
-    lists; None before the run's end.
+    scenario: '' of a user's scene; summary: Summary, of a town TownSummary; breaks, peaks, columns: dictionaries of
+    /breaks, /joint_peaks and /columns; None before the run's end, the last three and storeys also of a town.
     """
 
     title: str
@@ -211,6 +219,9 @@ class Frames:
     history: History | None = None
     breaks: dict | None = None
     run: str = ""
+    storeys: Storeys | None = None
+    peaks: dict | None = None
+    columns: dict | None = None
     sheets: Sheets = field(default_factory=Sheets)
 
     def __repr__(self):
@@ -294,10 +305,12 @@ def save(path, frames):
             group = file.create_group("motion")
             group.attrs.update(dt=frames.motion.dt, start=frames.motion.start)
             _save_group(group, {"acceleration": frames.motion.acceleration, "displacement": frames.motion.displacement})
-        if frames.history is not None:
-            _save_group(file.create_group("history"), frames.history._asdict())
-        if frames.breaks is not None:
-            _save_group(file.create_group("breaks"), frames.breaks)
+        results = {"history": frames.history and frames.history._asdict(), "breaks": frames.breaks,
+                   "storeys": frames.storeys and frames.storeys._asdict(), "joint_peaks": frames.peaks,
+                   "columns": frames.columns}
+        for name, table in results.items():
+            if table is not None:
+                _save_group(file.create_group(name), table)
     write_bytes(path, memory.getbuffer())
 
 
@@ -357,6 +370,7 @@ def _check_numbers(frames):
             raise ValueError(f"elements/{name}: of {len(getattr(e, name))} elements instead of {n}")
     numbers = [("joints/a", j.a, n), ("joints/b", j.b, n), ("joints/sheet", j.sheet + 1, len(frames.sheets.type) + 1),
                ("sheets/low", frames.sheets.low, n), ("sheets/high", frames.sheets.high, n),
+               ("columns/element", (frames.columns or {}).get("element", ()), n),
                *(("contacts/pair", pair, n) for pair in frames.contacts.pair)]
     numbers += [("elements/faces", face, len(vertices)) for faces, vertices in zip(e.faces, e.vertices)
                 for face in faces]
@@ -373,6 +387,8 @@ def _check_finite(frames):
     removed = np.all([np.isnan(part).all(2) for part in parts], axis=0)
     tables = {"frames/position, orientation": finite | removed, "frames/time": np.isfinite(frames.time)}
     tables |= {f"elements/{name}": np.isfinite(getattr(frames.elements, name)) for name in ("position", "orientation")}
+    tables |= {f"joint_peaks/{name}": np.isfinite(values) for name, values in (frames.peaks or {}).items()}
+    tables["columns/uplift"] = np.isfinite((frames.columns or {}).get("uplift", ()))
     for name, valid in tables.items():
         if not valid.all():
             raise ValueError(f"{name}: a number that is not finite")
@@ -391,6 +407,9 @@ def _load(file):
         loaded.summary = parse(file.attrs["summary"])
         loaded.history = History(**_values(file["history"]))
         loaded.breaks = _values(file["breaks"])
+    if "joint_peaks" in file:
+        loaded.storeys = Storeys(**_values(file["storeys"]))
+        loaded.peaks, loaded.columns = _values(file["joint_peaks"]), _values(file["columns"])
     return loaded
 
 
