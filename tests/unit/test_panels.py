@@ -19,7 +19,7 @@ from timber_houses.pictures.figures import new_figure
 from timber_houses.pictures.raster import Window, shade
 from timber_houses.pictures.views import View
 from timber_houses.recording import frames as recorded
-from timber_houses.recording.frames import placed
+from timber_houses.recording.record import placed
 
 SOUTH = View("south", "From the south", (1, 0, 0), (0, -1, 0), "west", "east")
 BEFORE, PARTLY, BROKEN = 1.95, 2.05, 2.15

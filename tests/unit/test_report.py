@@ -22,7 +22,8 @@ from timber_houses.recording.events import Collapse, Event, SnowFallen
 from timber_houses.recording.summary import Summary
 from timber_houses.recording.summary_parts import Mode, ModesAt, OtherWalls, Walls, Weight
 from timber_houses.recording.quantities import SUSTAINED, Storeys, band_limited, ground_velocity, storeys
-from timber_houses.recording.frames import Motion, load, save
+from timber_houses.recording.frames import load, save
+from timber_houses.recording.record import Motion
 from timber_houses.run.options import RunOptions, scripted
 from timber_houses.run.runner import clear
 from timber_houses.text.lines import MOST, lines

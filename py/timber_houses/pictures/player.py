@@ -19,8 +19,8 @@ from ..base import colors
 from ..base.atomic_write import write_text
 from ..base.errors import RunError
 from ..base.html import DATA, html
-from ..recording import frames
 from ..recording.events import Event, LevelPassed, ShakingBegins, StrongestShaking
+from ..recording.record import rotated
 from ..recording.summary import Summary, collapse_time
 from ..recording.walls import wall_sheets
 from ..text import english, japanese
@@ -136,7 +136,7 @@ def uplifts(run):
 def feet(run):
     """Numbers of the joints at the feet of columns: the first element is a column, with its centroid above."""
     e, j = run.elements, run.joints
-    below = frames.rotated(np.asarray(e.orientation)[j.a], j.anchor)[:, 2] < 0
+    below = rotated(np.asarray(e.orientation)[j.a], j.anchor)[:, 2] < 0
     return [k for k, kind in enumerate(j.kind)
             if below[k] and kind.startswith("column_") and e.kind[j.a[k]] == "column"]
 
