@@ -22,20 +22,15 @@ from timber_houses.study.options import Parser, count, results_folder, run_scrip
 def arguments():
     columns = "\n".join(f"  {name:14} {each.metadata['help']}" for name, each in COLUMNS.items())
     parser = Parser(__doc__, epilog=f"columns of a table:\n{columns}")
-    parser.add_argument(
-        "table", type=Path, help="parameter table: a line with the names of the columns, then one line per run"
-    )
+    parser.add_argument("table", type=Path,
+                        help="parameter table: a line with the names of the columns, then one line per run")
     parser.add_argument("-j", "--jobs", type=count, metavar="N", help="runs at a time (default: one per core)")
-    parser.add_argument(
-        "--out", type=results_folder, metavar="DIR", help="folder of the results (default results/<name of the table>)"
-    )
+    parser.add_argument("--out", type=results_folder, metavar="DIR",
+                        help="folder of the results (default results/<name of the table>)")
     parser.add_argument("--retry", action="store_true", help="run failed rows again")
     parser.add_argument("--collect", action="store_true", help="run nothing; write runs.csv for the results there are")
-    parser.add_argument(
-        "--only",
-        metavar="RUN",
-        help="run this row alone (name of the run or line of the table); runs.csv is not written",
-    )
+    parser.add_argument("--only", metavar="RUN",
+                        help="run this row alone (name of the run or line of the table); runs.csv is not written")
     return parser.parse_args()
 
 

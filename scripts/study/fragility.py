@@ -41,17 +41,13 @@ STYLES = {"A": (ORANGE, "o"), "B": (BLUE, "s"), "C": (GREEN, "^")}
 
 def arguments():
     made = parser(__doc__, "results/study_fragility")
-    made.add_argument(
-        "--seeds", type=count, default=LEAST_RUNS, metavar="N", help="motions per point (default %(default)s)"
-    )
+    made.add_argument("--seeds", type=count, default=LEAST_RUNS, metavar="N",
+                      help="motions per point (default %(default)s)")
     made.add_argument("--houses", default="A,B,C", help="shipped houses or house files (default %(default)s)")
-    made.add_argument(
-        "--snow", type=list_of(non_negative), default=[0.0, 1.0], metavar="M,M", help="snow depths [m] (default 0,1)"
-    )
-    made.add_argument(
-        "--scales", type=list_of(positive), metavar="X,X",
-        help="factors on the motion (default: a range for each house)",
-    )
+    made.add_argument("--snow", type=list_of(non_negative), default=[0.0, 1.0], metavar="M,M",
+                      help="snow depths [m] (default 0,1)")
+    made.add_argument("--scales", type=list_of(positive), metavar="X,X",
+                      help="factors on the motion (default: a range for each house)")
     return made.parse_args()
 
 
@@ -88,12 +84,9 @@ def _point(house, snow, scale, entries):
     collapsed = sum(entry["collapsed"] for entry in done)
     low, high = stats.binomtest(collapsed, len(done)).proportion_ci(CONFIDENCE, "exact") if done else (0.0, 1.0)
     times = [entry["collapse_time_s"] for entry in done if entry["collapsed"]]
-    return {
-        "house": house, "snow_m": snow, "scale": scale, "runs": len(done), "collapsed": collapsed,
-        "share": collapsed / len(done) if done else float("nan"),
-        "low": float(low), "high": float(high), "failed": len(entries) - len(done),
-        "median_collapse_time_s": float(np.median(times)) if times else "",
-    }
+    return {"house": house, "snow_m": snow, "scale": scale, "runs": len(done), "collapsed": collapsed,
+            "share": collapsed / len(done) if done else float("nan"), "low": float(low), "high": float(high),
+            "failed": len(entries) - len(done), "median_collapse_time_s": float(np.median(times)) if times else ""}
 
 
 def fit(curve, start=None):
@@ -158,9 +151,8 @@ def median_text(curve):
 
 
 def plot(table, snows, path):
-    figure, axes = plt.subplots(
-        1, len(snows), figsize=(5.8 * len(snows), 5.4), sharey=True, squeeze=False, constrained_layout=True
-    )
+    figure, axes = plt.subplots(1, len(snows), figsize=(5.8 * len(snows), 5.4), sharey=True, squeeze=False,
+                                constrained_layout=True)
     for axis, snow in zip(axes[0], snows):
         for number, house in enumerate(dict.fromkeys(point["house"] for point in table)):
             curve = [point for point in table if point["house"] == house and point["snow_m"] == snow]
@@ -190,23 +182,13 @@ def draw(axis, house, curve, shift):
     colour, marker = STYLES.get(house, (GREY, "D"))
     x, share, low, high = (np.array([point[key] for point in curve]) for key in ("scale", "share", "low", "high"))
     fitted = fit(curve) if has_curve(curve) else None
-    axis.errorbar(
-        x * shift,
-        share,
-        [share - low, high - share],
-        fmt=marker,
-        color=colour,
-        ms=5,
-        lw=1,
-        capsize=2,
-        label=f"house {house}: {median_text(curve)}",
-    )
+    axis.errorbar(x * shift, share, [share - low, high - share], fmt=marker, color=colour, ms=5, lw=1, capsize=2,
+                  label=f"house {house}: {median_text(curve)}")
     if fitted:
         line = np.geomspace(x.min(), x.max(), 200)
         axis.plot(line, share_at(fitted, line), color=colour, lw=1.5)
-        axis.fill_between(
-            line, *band([share_at(found, line) for found in resampled(curve, fitted)]), color=colour, alpha=0.15, lw=0
-        )
+        axis.fill_between(line, *band([share_at(found, line) for found in resampled(curve, fitted)]), color=colour,
+                          alpha=0.15, lw=0)
 
 
 def main():

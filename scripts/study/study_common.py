@@ -25,18 +25,13 @@ def parser(about, folder):
     """ArgumentParser with the options of every study."""
     made = Parser(about)
     add_driver_options(made, folder)
-    made.add_argument(
-        "--start", type=non_negative, default=START, metavar="S",
-        help="start of the part of the motion that is run [s] (default %(default)g)",
-    )
-    made.add_argument(
-        "--end", type=positive, default=END, metavar="S", help="end of that part [s] (default %(default)g)"
-    )
+    made.add_argument("--start", type=non_negative, default=START, metavar="S",
+                      help="start of the part of the motion that is run [s] (default %(default)g)")
+    made.add_argument("--end", type=positive, default=END, metavar="S",
+                      help="end of that part [s] (default %(default)g)")
     made.add_argument("--dt", type=positive, metavar="S", help="time step [s] (default: that of the run scripts)")
-    made.add_argument(
-        "--to", type=results_folder, metavar="DIR",
-        help="folder of the study's CSV and PNG (default: the folder of the runs)",
-    )
+    made.add_argument("--to", type=results_folder, metavar="DIR",
+                      help="folder of the study's CSV and PNG (default: the folder of the runs)")
     return made
 
 

@@ -21,9 +21,10 @@ ENDINGS = (*(pattern for _, pattern, _ in SUFFIXES), r"[-_.](?:ns|ew|ud)\.(?:csv
 RECORD_FILES = (".ew", ".ns", ".ud", ".ew2", ".ns2", ".ud2", ".at2", ".csv", ".acc")
 
 
-def seeds(count, target=None):
-    """[(name, {option: value})] of synthetic motions 1 ... count. target: {'scale' | 'pga' | 'intensity': number}"""
-    return [(f"seed{seed}", {"seed": seed, "start": START, "end": END, **(target or {})})
+def seeds(count, target=None, end=END):
+    """[(name, {option: value})] of synthetic motions 1 ... count up to `end` [s]. target: {'scale' | 'pga' |
+    'intensity': number}"""
+    return [(f"seed{seed}", {"seed": seed, "start": START, "end": end, **(target or {})})
             for seed in range(1, count + 1)]
 
 
