@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from timber_houses.base.errors import RunError
-from timber_houses.house import changed_house
+from timber_houses.house import BayName, changed_house
 from timber_houses.study.batch import HouseChanges
 from timber_houses.study.retrofit import candidates as measures
 from timber_houses.study.retrofit import motions, overview, race
@@ -70,7 +70,7 @@ structures:
 ])
 def test_bays_as_text(name, text):
     model = measures.build_house(measures.load_house("B"), check=False)
-    assert measures.bay_text(model, name) == text
+    assert measures.bay_text(model, BayName.read(name)) == text
 
 
 def test_measures_of_whole_walls():
@@ -103,8 +103,10 @@ def test_no_measure_stands_in_a_window_or_a_door():
 
 def test_the_line_of_a_bay():
     """Nodes may be fractions, so that a point in a name need not separate two parts of it."""
-    assert measures.bay_line("main.brace1.NS.x4.1-3") == "main.brace1.NS.x4"
-    assert measures.bay_line("main.wall1.NS.x4.0.1.5-3.plywood") == "main.wall1.NS.x4.0"
+    for name, line in (("main.brace1.NS.x4.1-3", "main.brace1.NS.x4"),
+                       ("main.wall1.NS.x4.0.1.5-3.plywood", "main.wall1.NS.x4.0")):
+        assert BayName.read(name).line == line and str(BayName.read(name)) == name
+    assert not any(map(BayName.read, ("main.brace1.NS.x4.1-3.plywood", "main.wall1.NS.x4.1-3", "main.column1.x4y1")))
 
 
 def test_seeds_and_target():
