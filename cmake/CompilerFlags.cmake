@@ -45,9 +45,10 @@ endif()
 
 find_program(TIMBER_CCACHE ccache)
 if(TIMBER_CCACHE)
-  # Precompiled headers defeat ccache unless their time stamps may be ignored.
+  # Precompiled headers defeat ccache unless their time stamps may be ignored. Clones share the cache: paths are relative.
   set(CMAKE_CXX_COMPILER_LAUNCHER
-      ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime ${TIMBER_CCACHE})
+      ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
+      CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${TIMBER_CCACHE})
   add_compile_options($<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 endif()
 

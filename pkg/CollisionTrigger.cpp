@@ -2,6 +2,7 @@
 #include <CollisionTrigger.hpp>
 #include <Shape.hpp>
 #include <bodies.hpp>
+#include <validation.hpp>
 #include <kernel/rotation.hpp>
 #include <kernel/threads.hpp>
 #include <pkg/common/Collider.hpp>
@@ -63,8 +64,7 @@ void CollisionTrigger::takeSnapshots()
 
 void CollisionTrigger::action()
 {
-	if (!dynamic_cast<Collider*>(collider.get()))
-		throw std::invalid_argument("CollisionTrigger.collider: a Collider is required");
+	if (!dynamic_cast<Collider*>(collider.get())) stopRun("CollisionTrigger.collider: a Collider is required");
 	lastStep = scene->iter;
 	// DoSort: bodies were added
 	const bool changed = snapshots.size() != scene->bodies->size() || scene->interactions->dirty || scene->doSort;

@@ -101,10 +101,10 @@ void ContactForces::checkPlacements() const
 {
 	for (const ContactPair& pair : pairs)
 		if (pair.placed > 0 && pair.phys->placedOverlap > timber::largestPlacedOverlap)
-			throw std::runtime_error("bodies " + std::to_string(pair.id1) + " and "
-			        + std::to_string(pair.id2) + " were placed with an overlap of "
-			        + std::to_string(1000 * pair.phys->placedOverlap) + " mm: at most "
-			        + std::to_string(1000 * timber::largestPlacedOverlap) + " mm; move one of them");
+			stopRun("bodies " + std::to_string(pair.id1) + " and " + std::to_string(pair.id2)
+			        + " were placed with an overlap of " + std::to_string(1000 * pair.phys->placedOverlap)
+			        + " mm: at most " + std::to_string(1000 * timber::largestPlacedOverlap)
+			        + " mm; move one of them");
 }
 
 void ContactForces::findIslands()

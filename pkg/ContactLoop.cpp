@@ -3,6 +3,7 @@
 #include <CollisionTrigger.hpp>
 #include <ContactPhysics.hpp>
 #include <bodies.hpp>
+#include <validation.hpp>
 #include <kernel/threads.hpp>
 
 namespace yade {
@@ -29,7 +30,7 @@ bool ContactLoop::isCurrent(const CollisionTrigger* trigger) const
 
 void ContactLoop::runInteractionLoop(const CollisionTrigger* trigger)
 {
-	if (!loop) throw std::invalid_argument("ContactLoop.loop: an InteractionLoop is required");
+	if (!loop) stopRun("ContactLoop.loop: an InteractionLoop is required");
 	loop->scene = scene;
 	{
 		const OneThread serial;

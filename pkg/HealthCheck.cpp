@@ -84,7 +84,7 @@ void HealthCheck::checkGeometry(const Body& b) const
 	if (id >= checkedBodies.size() || !checkedBodies[id] || !areSame(checkedBodies[id]->shape, b.shape)) return;
 	const CheckedBody& before = *checkedBodies[id];
 	if (before.rounded && before.rounded->geometry != before.geometry)
-		throw std::runtime_error("body " + std::to_string(id)
+		stopRun("body " + std::to_string(id)
 		        + ": vertices or radius of its shape were changed in the scene. "
 		          "Assign another shape to the body");
 }
@@ -95,8 +95,8 @@ void HealthCheck::checkBodies() const
 		const Body* b = (*scene->bodies)[id].get();
 		if (!b) continue;
 		if (size_t(b->getId()) != id)
-			throw std::runtime_error("O.bodies[" + std::to_string(id) + "]: its id is "
-			        + std::to_string(b->getId()) + ": it must be its place in O.bodies");
+			stopRun("O.bodies[" + std::to_string(id) + "]: its id is " + std::to_string(b->getId())
+			        + ": it must be its place in O.bodies");
 		checkBody(*b);
 		checkGeometry(*b);
 	}
@@ -141,8 +141,8 @@ void HealthCheck::checkScene()
 {
 	const shared_ptr<Scene>& current = Omega::instance().getScene();
 	if (!checkedParts.empty() && checkedScene.lock() != current)
-		throw std::runtime_error("O.engines: the engines belong to an earlier scene. Set O.engines = "
-		                         "yade_timber.engines(...) again");
+		stopRun("O.engines: the engines belong to an earlier scene. Set O.engines = "
+		        "yade_timber.engines(...) again");
 	checkBodies();
 	checkEngines(*scene);
 	checkContacts(*scene);
@@ -172,14 +172,14 @@ void HealthCheck::checkState(const Body& b) const
 	        << " (t = " << scene->time << " s): position " << s.pos.transpose() << " m, velocity "
 	        << s.vel.transpose() << " m/s, angular velocity " << s.angVel.transpose() << " rad/s; the time step "
 	        << scene->dt << " s is probably too large";
-	throw std::runtime_error(message.str());
+	stopRun(message.str());
 }
 
 void HealthCheck::action()
 {
 	if (!(scene->dt > 0 && std::isfinite(scene->dt)))
-		throw std::runtime_error("O.dt = " + std::to_string(scene->dt) + " s: it must be finite and > 0");
-	if (scene->isPeriodic) throw std::runtime_error("O.periodic = True: periodic cells are not supported");
+		stopRun("O.dt = " + std::to_string(scene->dt) + " s: it must be finite and > 0");
+	if (scene->isPeriodic) stopRun("O.periodic = True: periodic cells are not supported");
 	if (scene->dt == defaultStep && checkedStep != defaultStep)
 		std::cerr << "O.dt = " << scene->dt
 		          << " s is YADE's default, with which nothing seems to move; set O.dt, "

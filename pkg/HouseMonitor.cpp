@@ -156,8 +156,7 @@ Vector3r HouseMonitor::displacementOf(int level) const
 		sum += s.mass * (s.pos - s.refPos);
 		mass += s.mass;
 	}
-	if (!(mass > 0))
-		throw std::runtime_error("HouseMonitor: level " + std::to_string(level) + " has no body with a mass");
+	if (!(mass > 0)) stopRun("HouseMonitor: level " + std::to_string(level) + " has no body with a mass");
 	return sum / mass;
 }
 

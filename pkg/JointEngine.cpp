@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <JointEngine.hpp>
+#include <validation.hpp>
 #include <kernel/threads.hpp>
 #include <set>
 
@@ -116,7 +117,7 @@ void JointEngine::checkJoints() const
 			for (const shared_ptr<TimberJoint>& joint : other->joints)
 				ofOthers.insert(joint.get());
 	const auto refuse = [](size_t k, const string& fault) {
-		throw std::runtime_error("JointEngine.joints[" + std::to_string(k) + "]: " + fault);
+		stopRun("JointEngine.joints[" + std::to_string(k) + "]: " + fault);
 	};
 	const auto isId = [this](Body::id_t id) { return id >= 0 && size_t(id) < scene->bodies->size(); };
 	for (size_t k = 0; k < joints.size(); ++k) {

@@ -8,8 +8,8 @@
 #include <SceneCheck.hpp>
 #include <Shape.hpp>
 #include <bodies.hpp>
+#include <validation.hpp>
 #include <core/InteractionLoop.hpp>
-#include <lib/pyutil/gil.hpp>
 #include <pkg/common/InsertionSortCollider.hpp>
 #include <pkg/common/ParallelEngine.hpp>
 #include <iomanip>
@@ -79,12 +79,12 @@ namespace {
 
 	[[noreturn]] void refuseEngines(const string& fault)
 	{
-		throw std::runtime_error("O.engines: " + fault + ". yade_timber.engines() gives a valid list");
+		stopRun("O.engines: " + fault + ". yade_timber.engines() gives a valid list");
 	}
 
 	[[noreturn]] void refuseBody(const Body& b, const string& fault)
 	{
-		throw std::runtime_error("body " + std::to_string(b.getId()) + ": " + fault);
+		stopRun("body " + std::to_string(b.getId()) + ": " + fault);
 	}
 
 	/// Visits live engines, and those inside them.
@@ -195,7 +195,7 @@ namespace {
 	[[noreturn]] void refusePair(const Body& a, const Body& b, const char* functor, const string& classA,
 	        const string& classB, const string& remedy = "")
 	{
-		throw std::runtime_error("bodies " + std::to_string(a.getId()) + " and " + std::to_string(b.getId())
+		stopRun("bodies " + std::to_string(a.getId()) + " and " + std::to_string(b.getId())
 		        + ": the InteractionLoop has no " + functor + " functor for " + classA + " and " + classB
 		        + remedy);
 	}
@@ -334,7 +334,7 @@ namespace {
 		std::ostringstream message;
 		message << "O.dt = " << scene.dt << " s: too large for " << cause << ": it must be at most ";
 		message << std::setprecision(2) << limit << " s";
-		throw std::runtime_error(message.str());
+		stopRun(message.str());
 	}
 
 	/// The free body of the smallest radius; null if there is none.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Range checks of attributes.
+/// Range checks of attributes, and the end of a run by an error.
 #pragma once
 #include <pch.hpp>
+#include <lib/pyutil/gil.hpp>
 
 namespace yade {
 
@@ -24,6 +25,14 @@ inline void requireNonNegative(const char* attribute, Real value)
 inline void requireFinite(const char* attribute, Real value)
 {
 	require(std::isfinite(value), attribute, value, "finite");
+}
+
+/// Ends a step with std::runtime_error. O.run(n, True) returns without the error of a step that ends before it looks
+/// whether the loop runs; it holds Python's lock until then.
+[[noreturn]] inline void stopRun(const std::string& message)
+{
+	const gilLock caller;
+	throw std::runtime_error(message);
 }
 
 } // namespace yade

@@ -99,3 +99,9 @@ def test_guard_changes_classes_of_yade_once(tmp_path):
 def test_a_scene_without_what_houses_need(tmp_path):
     assert said(tmp_path, WITHOUT, tmp_path / "scene.json").strip() == "[set(), True, True]"
     assert json.loads((tmp_path / "scene.json").read_text())["joints"]
+
+
+def test_runs_load_no_matplotlib(tmp_path):
+    """It takes as long as the start of YADE: a run without pictures does without."""
+    script = "import sys\nfrom timber_houses.run import cli, session\nprint('@', 'matplotlib' in sys.modules)\n"
+    assert said(tmp_path, script).split() == ["False"]

@@ -17,7 +17,7 @@ from ..base.lock import prepare_folder
 from ..base.processors import processors
 from ..base.table import csv_text
 from ..house.town import check_places
-from ..pictures import all_pictures, owner
+from ..pictures import all_pictures
 from ..recording import frames
 from ..recording import town as recording
 from ..recording.summary import LotResult
@@ -138,6 +138,8 @@ class TownRun(Stoppable):
             written.append(folder / frames.NAME)
             frames.save(written[-1], recording.town_frames(self.summary, recorded))
             if self.options.views:
+                from ..pictures import owner  # loads matplotlib: half a second that other runs do without
+
                 written += all_pictures.write(folder)
                 for _, run in self.lots:
                     owner.write(run.options.folder, run.frames)
