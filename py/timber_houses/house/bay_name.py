@@ -29,8 +29,8 @@ class BayName(NamedTuple):
         match = _BAY.fullmatch(text)
         if match is None or (match[2] == "wall") != (match[8] is not None):
             return None
-        return cls(match[1], int(match[3]), "x" if match[4] == "EW.y" else "y", *map(float, match.groups()[4:7]),
-                   match[8] or "")
+        at, start, end = map(float, match.groups()[4:7])
+        return cls(match[1], int(match[3]), "x" if match[4] == "EW.y" else "y", at, start, end, match[8] or "")
 
     @property
     def line(self):

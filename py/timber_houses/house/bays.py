@@ -13,10 +13,10 @@ def free_bays(description):
     names = []
     for structure, storey in _storeys(description):
         taken = _braced(structure, storey) | _walled(structure, storey, only_open=True)
-        for line, (*place, low, high) in _bays(structure, storey):
-            if (*place, low, high) not in taken:
+        for line, (along, at, low, high) in _bays(structure, storey):
+            if (along, at, low, high) not in taken:
                 foot, head = (low, high) if low + high <= line["from"] + line["to"] else (high, low)
-                names.append(str(BayName(structure.name, storey, *place, foot, head)))
+                names.append(str(BayName(structure.name, storey, along, at, foot, head)))
     return names
 
 
@@ -25,8 +25,8 @@ def free_wall_bays(description, kind):
     names = []
     for structure, storey in _storeys(description):
         walled = _walled(structure, storey)
-        names += [str(BayName(structure.name, storey, *bay, kind)) for _, bay in _bays(structure, storey)
-                  if bay not in walled]
+        names += [str(BayName(structure.name, storey, along, at, low, high, kind))
+                  for _, (along, at, low, high) in _bays(structure, storey) if (along, at, low, high) not in walled]
     return names
 
 
