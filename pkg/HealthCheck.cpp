@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <HealthCheck.hpp>
+#include <HouseMonitor.hpp>
 #include <Integrator.hpp>
 #include <JointEngine.hpp>
 #include <bodies.hpp>
@@ -19,6 +20,8 @@ void HealthCheck::validate() const
 
 namespace {
 	constexpr Real defaultStep = 1e-8; ///< of a YADE scene whose O.dt was not set [s]
+	/// Energy created by contacts and joints that is named, as a share of the energy put in [-], and what is not [J].
+	constexpr Real createdLimit = 1e-4, negligibleEnergy = 1e-3;
 
 	int classOf(const shared_ptr<Material>& m) { return m ? m->getClassIndex() : -1; }
 
@@ -190,6 +193,7 @@ void HealthCheck::action()
 	if (!changed && scene->iter % every != 0) return;
 	check();
 	if (!areFastNoted) noteFastBodies();
+	if (!changed && !isCreatedNoted) noteCreated();
 }
 
 /// A body that moves by more than half its thickness in a step may pass through another one.
@@ -207,6 +211,18 @@ void HealthCheck::noteFastBodies()
 		areFastNoted = true;
 		return;
 	}
+}
+
+/// The step is too large for a contact or joint.
+void HealthCheck::noteCreated()
+{
+	const Real created = createdEnergy(*scene);
+	if (!(created > negligibleEnergy)) return;
+	const Real share = created / energyTurnover(*scene);
+	if (!(share > createdLimit)) return;
+	std::cerr << "t = " << scene->time << " s: contacts and joints have created " << created << " J, " << share
+	          << " of the energy put in: O.dt = " << scene->dt << " s is large for them\n";
+	isCreatedNoted = true;
 }
 
 void HealthCheck::check() const

@@ -32,7 +32,7 @@ class HealthCheck : public GlobalEngine {
 	std::vector<const void*> checkedParts, parts;
 	Real checkedStep = NaN; ///< O.dt at the last check of the scene [s]
 	boost::weak_ptr<Scene> checkedScene;
-	bool areFastNoted = false;
+	bool areFastNoted = false, isCreatedNoted = false;
 
 	bool hasSceneChanged();
 	bool haveBodiesChanged() const;
@@ -43,6 +43,7 @@ class HealthCheck : public GlobalEngine {
 	void takeOverRotations();
 	void checkState(const Body&) const;
 	void noteFastBodies();
+	void noteCreated();
 
 public:
 	void postLoad(HealthCheck&) { validate(); }
@@ -59,7 +60,8 @@ public:
 		"is small enough for contacts under gravity and for the joints. "
 		"A free body with an angular velocity but no angular momentum gets the momentum of that velocity. "
 		"Then and at an interval it checks that positions and velocities are finite, speeds and rotations "
-		"plausible, and names the first body that moves by more than half its thickness in a step.",
+		"plausible, names the first body that moves by more than half its thickness in a step, and says when "
+		"contacts and joints have created more than 1e-4 of the energy put in.",
 		((int, every, 100, Attr::triggerPostLoad, "Steps between checks of the bodies. [-]"))
 		((Real, speedLimit, 200, Attr::triggerPostLoad, "Largest plausible speed of a body. [m/s]"))
 		((Real, turnLimit, 1.5, Attr::triggerPostLoad, "Largest plausible rotation of a free body in a step. "

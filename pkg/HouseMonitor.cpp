@@ -125,6 +125,22 @@ namespace {
 	}
 }
 
+Real createdEnergy(const Scene& scene)
+{
+	const EnergySources s = energySources(scene);
+	return (s.contacts ? s.contacts->created + s.contacts->jointDebt : 0)
+	        + (s.joints ? math::max(Real(0), s.joints->created) : 0);
+}
+
+Real energyTurnover(const Scene& scene)
+{
+	const EnergySources sources = energySources(scene);
+	Real sum = 0;
+	for (const EnergyTerm& term : energyTerms)
+		if (string(term.name) != "gravity" && string(term.name) != "ground_motion") sum += term.value(sources);
+	return sum;
+}
+
 void HouseMonitor::validate() const
 {
 	requireNonNegative("HouseMonitor.interval", interval);

@@ -7,6 +7,11 @@
 
 namespace yade {
 
+/// Energy that contacts and joints have returned beyond what they had stored, so far. [J]
+Real createdEnergy(const Scene&);
+/// Kinetic, elastic and dissipated energy: what was put into the scene. [J]
+Real energyTurnover(const Scene&);
+
 class HouseMonitor : public GlobalEngine {
 	/// Of the centre of mass of a level since the start. [m]
 	Vector3r displacementOf(int level) const;
@@ -19,6 +24,7 @@ public:
 	void action() override;
 	/// Terms of the energy balance after a whole step, see ``yade_timber.energy``. [J]
 	boost::python::dict pyEnergy() const;
+	Real pyCreated() const { return createdEnergy(*Omega::instance().getScene()); }
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(HouseMonitor, GlobalEngine,
@@ -57,6 +63,8 @@ public:
 		,
 		.def("columns", &HouseMonitor::pyColumns, "Names of the columns of rows, with units. [-]")
 		.def("energy", &HouseMonitor::pyEnergy, "Terms of the energy balance now. [J]")
+		.def("created", &HouseMonitor::pyCreated, "Energy that contacts and joints have returned beyond what they "
+			"had stored, so far. [J]")
 	);
 	// clang-format on
 	boost::python::list pyColumns() const;

@@ -30,11 +30,38 @@ namespace {
 		return true;
 	}
 
+	/// Whether a yielding joint crosses too much of its law in a step for explicit springs.
+	bool isFast(const TimberJoint& joint, const Scene& scene, const std::vector<timber::SolverBody>& bodies)
+	{
+		if (!joint.yields()) return false;
+		const Quaternionr &qA = bodyAt(scene, joint.id1)->state->ori,
+		                  &qB = bodyAt(scene, joint.id2)->state->ori;
+		const timber::SolverBody &a = bodies[joint.id1], &b = bodies[joint.id2];
+		for (size_t k = 0; k < joint.broken.size(); ++k) {
+			if (joint.broken[k]) continue;
+			const Vector3r speed = timber::relativeVelocity<double>(qA * joint.anchors1[k],
+			        qB * joint.anchors2[k], a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
+			if (scene.dt * speed.norm() * joint.kn > timber::yieldTravel * joint.strength) return true;
+		}
+		return false;
+	}
+
 	/// A joint that stops being stiff without a step of the solver.
 	void release(TimberJoint& joint, ImplicitJointResult& result)
 	{
 		(joint.storedEnergy > 0 ? result.dashpots : result.debt) += math::abs(joint.storedEnergy);
 		joint.soften();
+	}
+
+	/// Power of the bodies on the unbroken springs. forces: of these, world frame [N]; returns [W].
+	Real stretchingPower(const TimberJoint& joint, const State& a, const State& b, const vector<Vector3r>& forces)
+	{
+		Real power = 0;
+		for (size_t k = 0; k < joint.broken.size(); ++k)
+			if (!joint.broken[k])
+				power += forces[k].dot(timber::relativeVelocity<double>(a.ori * joint.anchors1[k],
+				        b.ori * joint.anchors2[k], a.vel, a.angVel, b.vel, b.angVel));
+		return power;
 	}
 
 	timber::SpringSteps springSteps(TimberJoint& joint, const Scene& scene)
@@ -54,8 +81,11 @@ namespace {
 			else step.applied = force;
 			steps.push_back(std::move(step));
 		}
+		const bool enters = !joint.isStiff();
 		timber::SpringSteps result(std::move(law), std::move(steps), joint.storedEnergy, scene.dt);
-		if (!joint.isStiff()) result.account = result.startEnergy();
+		// The bodies' velocities are those of half a step before the placement
+		if (enters)
+			result.account = result.startEnergy() - scene.dt / 2 * stretchingPower(joint, s1, s2, forces);
 		return result;
 	}
 
@@ -92,8 +122,8 @@ namespace {
 		return total;
 	}
 
-	/// Energies of a stiff joint after the step. One that the step resolves, and of which no spring breaks, goes back to
-	/// JointEngine, with the energy of explicit springs; it counts what they have beyond the account.
+	/// Energies of a stiff joint after the step. A brittle one that the step resolves, and of which no spring breaks, goes
+	/// back to JointEngine, with the energy of explicit springs; it counts what they have beyond the account.
 	void storeEnergies(const timber::ModalConstraint& c, const ImplicitJoint& implicit, timber::JointForce& total,
 	        ImplicitJointResult& result)
 	{
@@ -103,7 +133,7 @@ namespace {
 		Real& dissipated = joint.yields() ? result.yielded : breaks ? result.released : result.dashpots;
 		dissipated += c.springs.dissipated;
 		joint.storedEnergy = c.springs.account;
-		if (!breaks && !joint.modes.isStiff(c.h / timber::softPhase)) {
+		if (!breaks && !joint.yields() && !joint.modes.isStiff(c.h / timber::softPhase)) {
 			const timber::SpringSteps::Leaving left = c.springs.leave(c.h, c.after);
 			dissipated += left.dissipated;
 			result.stored += total.energy = left.stored;
@@ -135,7 +165,8 @@ ImplicitJointResult findImplicitJoints(const Scene& scene, const std::vector<tim
 	for (size_t k = 0; k < engine->joints.size(); ++k) {
 		TimberJoint& joint = *engine->joints[k];
 		const bool may = (joint.isDamped() || alsoStiff) && hasModes(joint, scene, bodies);
-		const bool isStiff = may && alsoStiff && (joint.isStiff() || joint.modes.isStiff(scene.dt));
+		const bool isStiff = may && alsoStiff
+		        && (joint.isStiff() || joint.modes.isStiff(scene.dt) || isFast(joint, scene, bodies));
 		if (may && (isStiff || joint.isDamped()))
 			implicit.push_back({ &joint, k, isStiff, engine->lastForce(k).tangent });
 		if (isStiff && !joint.isStiff()) engine->handOver(k);

@@ -14,12 +14,11 @@ inline double energyImpulse(const PointStep& c, double base)
 	return largestShare(c.before[0] + base, c.response(), c.energy);
 }
 
-/// Normal impulse with which an impact ends: p_w of (6). base: b [m/s].
+/// Normal impulse with which an impact ends: p_w of (6), at least what stops the approach. base: b [m/s].
 inline double reboundImpulse(const PointStep& c, double base)
 {
-	return std::max(0.,
-	        (c.rebound - base + reboundSoftness * (c.rebound - c.velocity[0]))
-	                / (c.response() * (1 + reboundSoftness)));
+	const double soft = (c.rebound - base + reboundSoftness * (c.rebound - c.velocity[0])) / (1 + reboundSoftness);
+	return std::max({ 0., soft, -base }) / c.response();
 }
 
 /// Normal spring that hardens, F(n) = F_1(n) + c n^q with a linear F_1, and its dashpot, over a closing displacement d

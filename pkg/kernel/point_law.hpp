@@ -3,9 +3,9 @@
 /// (contact_visit.hpp), for Newton's method (contact_newton.cpp). Symbols: contact_solver.hpp.
 /// At a fixed point p = f p + B - M u', so that (2) is p = (B - M u') / (1 - f), and the limits (5), (6) are
 ///     p (v + v' + eps a p) / 2 <= A                                                              (1)
-///     p_w = (w + s (w - u_n0) - v') / (a s)                                                      (2)
-/// With the softness eps = 0, (1) lets p jump at v' = -v where A = 0; eps > 0 makes it continuous there, and the point
-/// returns less than A.
+///     p_w = max((w + s (w - u_n0) - v') / (a s), -v' / (eps a))                                  (2)
+/// With the softness eps = 0, (1) lets p jump at v' = -v where A = 0, and (2) at v' = 0; eps > 0 makes them continuous
+/// there, and the point returns less than A.
 #pragma once
 #include "contact_visit.hpp"
 
@@ -22,9 +22,9 @@ inline double normalImpulseAt(PointStep& c, double after, double softness)
 	if (p * (sum + soft * p) > 2 * c.energy) p = std::min(p, largestShare(sum, soft, c.energy));
 	c.bounded = false;
 	if (c.rebound < noRebound) {
-		const double bound
-		        = (c.rebound + reboundSoftness * (c.rebound - c.velocity[0]) - after) / (a * reboundSoftness);
-		if (bound < p) p = std::max(0., bound), c.bounded = true;
+		const double bound = std::max({ 0., -after / soft,
+		        (c.rebound + reboundSoftness * (c.rebound - c.velocity[0]) - after) / (a * reboundSoftness) });
+		if (bound < p) p = bound, c.bounded = true;
 	}
 	return std::min(p, c.strength);
 }

@@ -123,6 +123,11 @@ TEST(Visit, RespectsItsLimits)
 		const double bound = c.rebound + reboundSoftness * std::max(0., c.rebound - c.velocity[0] - a * p);
 		if (p > 0 && c.rebound < noRebound) { // (6)
 			EXPECT_LE(after, bound + 1e-9 * (std::abs(base) + bound)) << trial;
+			PointStep unbounded = c;
+			unbounded.rebound = noRebound;
+			if (p < impulseAt(unbounded, base, 0)) { // it bounds the separation only
+				EXPECT_GE(after, -1e-12 * std::abs(base)) << trial;
+			}
 		}
 	}
 }

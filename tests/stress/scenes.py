@@ -297,7 +297,7 @@ def wanted(words):
 def run(family, seed):
     """Verdict of a scene."""
     build, index = FAMILIES[family][0], list(FAMILIES).index(family)
-    return scene_judge.judge(f"{family} {seed}", build, np.random.default_rng([index, seed]))
+    return scene_judge.judge(f"{family} {seed}", build, [index, seed])
 
 
 def show(scenes):

@@ -95,7 +95,7 @@ def test_a_joint_too_stiff_for_the_step_in_mid_run():
 
 
 def test_an_error_of_the_first_step_is_never_lost():
-    """YADE's O.run(n, True) drops the error of a loop that has ended before it looks: one in fifty to a hundred here."""
+    """YADE's O.run(n, True) drops the error of a loop that has ended before it looks: one in fifty to a hundred."""
     plate()
     cube(0.1)
     start(steps=5)

@@ -76,3 +76,17 @@ def test_fast_body_is_named(capfd):
     O.run(300, True)
     said = [line for line in capfd.readouterr().err.splitlines() if "in a step" in line]
     assert len(said) == 1 and f"body {bullet} moves by 20." in said[0] and "O.dt = 0.0005 s" in said[0]
+
+
+def test_created_energy_is_named(capfd):
+    """Once. Explicit springs of a joint that yields within a step."""
+    O.reset()
+    O.bodies.append([yt.box((0.2, 0.2, 0.2), (0, 0, 0), fixed=True), yt.box((0.2, 0.2, 0.2), (0, 0, 0.5))])
+    O.dt, O.engines = 2e-4, yt.engines(gravity=(0, 0, 0), sweeps=0)
+    yt.connect(0, 1, [(0, 0, 0.25)], (0, 0, 1), (1e6, 1e6), 3000.0, slip=yt.SlipLaw(0.05, 0.1))
+    O.run(200, True)
+    yt.set_velocity(O.bodies[1], (0, 0, 10))
+    O.run(300, True)
+    said = [line for line in capfd.readouterr().err.splitlines() if "created" in line]
+    assert len(said) == 1 and "of the energy put in: O.dt = 0.0002 s is large for them" in said[0]
+    assert yw.HouseMonitor().created() > 1e-4 * yt.energy()["imposed_velocity"]

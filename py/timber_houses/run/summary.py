@@ -42,7 +42,7 @@ def summary(scenario, observed, tables, wall_s, made_from, cut_off=None):
     residual, amplitude = drift.residual(history)
     simulated = round(O.iter * scenario.dt, 9)
     structures = survey.by_structure(state, observed.peaks)
-    created = created_energy()
+    created = yw.HouseMonitor().created()
     energy = (energy_balance(queries.energy(), created) if cut_off is None
               else energy_balance(last_energies(history), _finite(created)))
     draft = Summary(
@@ -72,13 +72,6 @@ def summary(scenario, observed, tables, wall_s, made_from, cut_off=None):
     return judged(draft)
 
 
-def created_energy():
-    """Energy that contacts and joints have created so far [J]: of points and joints that have ceased to exist, debts of
-    stiff joints, and the net error of yielding joints that the step resolves."""
-    contacts, joints = find_engine(yw.ContactForces), find_engine(yw.JointEngine)
-    return contacts.created + contacts.jointDebt + (max(0.0, joints.created) if joints else 0.0)
-
-
 def judged(draft):
     """The Summary with verdict and sentences. The main structure is judged by the HouseMonitor, others by frames."""
     peak, residual = draft.largest_drift()[0], draft.largest_drift("residual_drift")[0]
@@ -101,7 +94,7 @@ def last_energies(history):
 
 
 def energy_balance(terms, created):
-    """The part `energy` [J] from the terms of `queries.energy`. created: ContactForces.created, None if unknown
+    """The part `energy` [J] from the terms of `queries.energy`. created: HouseMonitor.created(), None if unknown
 
     input: work of the ground motion, energy of imposed velocities and potential energy released by gravity since the
     start. residual: stored, kinetic and dissipated energy minus the input; residual_fraction: its absolute value over
