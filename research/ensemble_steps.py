@@ -54,7 +54,7 @@ def plan(options):
     steps = dict(zip(NAMES, ({"dt": options.dt}, {})))
     cases = (selected(options.cases, sorted(path.stem for path in SCRIPTS.glob("model*.py")), "--cases")
              if options.cases else CASES)
-    return {(case, name): tasks(case, scripted(case, *parse_run(case), out=options.out / case / name, **step, **same))
+    return {(case, name): tasks(scripted(case, *parse_run(case), out=options.out / case / name, **step, **same))
             for case in cases for name, step in steps.items()}
 
 
@@ -102,7 +102,7 @@ def main():
     planned = plan(options)
     try:
         if not options.collect:
-            run_missing(chain(*zip(*planned.values())), SCRIPTS, options.jobs)
+            run_missing(chain(*zip(*planned.values())), options.jobs)
     finally:
         found, steps, done = collect(planned)
         text, folder = page(found, steps, done, options), options.to or options.out

@@ -9,7 +9,7 @@ Writes claims.md, claims.csv, claims.json and runs.csv. Needs no YADE itself.
 """
 import argparse
 
-from timber_research import SCRIPTS, report
+from timber_research import report
 from timber_research.claims import RUNS, judge, parse_run
 from timber_houses.base.errors import RunError
 from timber_houses.base.options import add_options, options, read_arguments
@@ -28,8 +28,8 @@ def main():
     add_options(parser, [options(RunOptions)[name] for name in SHARED])
     arguments = parser.parse_args()
     shared = run_options(arguments)
-    tasks = [Task(run, arguments.out / run, run_of(run, *parse_run(run), shared)) for run in RUNS]
-    summaries = {task.script: summary for task, summary in run_missing(tasks, SCRIPTS, arguments.jobs).items()
+    tasks = [Task(arguments.out / run, run_of(run, *parse_run(run), shared)) for run in RUNS]
+    summaries = {task.options.name: summary for task, summary in run_missing(tasks, arguments.jobs).items()
                  if summary is not None}
     results = judge(summaries)
     print(report.markdown(results, summaries))

@@ -10,7 +10,7 @@ are kept. Writes robustness.md, and the tables of each motion to a folder of its
 """
 from pathlib import Path
 
-from timber_research import SCRIPTS, comparison
+from timber_research import comparison
 from timber_research.claims import RUNS, parse_run
 from timber_houses.base.errors import RunError
 from timber_houses.run.options import scripted
@@ -29,7 +29,7 @@ def all_cases(seeds, records):
 
 def tasks_of(case, options, folder):
     """{run: task} of a motion. Only the shipped case has the runs without an earthquake."""
-    return {run: Task(run, folder / case / run, scripted(run, *parse_run(run), **options)) for run in RUNS
+    return {run: Task(folder / case / run, scripted(run, *parse_run(run), **options)) for run in RUNS
             if case == SHIPPED or parse_run(run)[1]}
 
 
@@ -43,7 +43,7 @@ def main():
     options = parser.parse_args()
     cases = all_cases(options.seeds, options.record)
     tasks = {case: tasks_of(case, given, options.out) for case, (_, given) in cases.items()}
-    done = run_missing([task for some in tasks.values() for task in some.values()], SCRIPTS, options.jobs)
+    done = run_missing([task for some in tasks.values() for task in some.values()], options.jobs)
     summaries = {case: {run: done[task] for run, task in some.items() if done[task] is not None}
                  for case, some in tasks.items()}
     print(comparison.write({case: about for case, (about, _) in cases.items()}, summaries, options.out))

@@ -12,10 +12,10 @@ It can be stopped; the same command continues.
 """
 import argparse
 
-from timber_research import SCRIPTS, design
+from timber_research import design
 from timber_research.screening import cells, picture, report
 from timber_research.screening.collect import collect
-from timber_houses.study.batch import read_table, run_rows, write_runs
+from timber_houses.study.batch import run_rows, write_runs
 from timber_houses.study.batch.tasks import task_of
 from timber_houses.study.options import (Parser, add_driver_options, list_of, non_negative, positive, record,
                                          run_script, seed)
@@ -66,11 +66,12 @@ def main():
         cells.recorded(one) for one in options.record
     ]
     planned = cells.plan(motions, options.dt)
-    rows = read_table(cells.write_inputs(planned, options.out))
+    cells.write_houses(planned, options.out)
+    rows = [entry.row(options.out) for entry in planned]
     chosen = [entry.cell in options.cells for entry in planned]
     try:
         if not options.collect:
-            run_rows([row for row, is_chosen in zip(rows, chosen) if is_chosen], options.out, SCRIPTS, options.jobs)
+            run_rows([row for row, is_chosen in zip(rows, chosen) if is_chosen], options.out, options.jobs)
     finally:
         write_runs(rows, options.out)
         summaries = [task_of(row, options.out).summary for row in rows]

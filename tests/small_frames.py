@@ -4,7 +4,7 @@ the east and tips.
 """
 import numpy as np
 from summaries import sample_summary
-from timber_houses.recording.frames import Contacts, Elements, Frames, Joints, Motion
+from timber_houses.recording.record import Contacts, Elements, Frames, Joints, Motion
 from timber_houses.recording.history import History
 
 FACES = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Cases of the benchmarks of error against run time: builders build(dt, options) and the curves that are compared."""
 import math
-from typing import NamedTuple
 
 import numpy as np
 import yade.wrapper as yw
@@ -21,8 +20,6 @@ UNBREAKABLE = 1e12
 """Strength of joints in cases without breaks [N]."""
 STRONG = 17.6
 """Start of the strong part of the synthetic motion [s]."""
-DROP = 0.5
-"""Height of fall of the falling house [m]."""
 
 
 def plate():
@@ -65,30 +62,17 @@ def build_frame(dt, options):
                        strength=UNBREAKABLE)
 
 
-def build_house(house, strength=None, start=STRONG):
-    """A house in the strong part of the synthetic motion; start [s]: of this part."""
+def build_house(house, strength=None):
+    """A house in the strong part of the synthetic motion."""
 
     def build(dt, options):
         motion = default_motion()
-        cut = GroundMotion(motion.dt, motion.acceleration[round(start / motion.dt) :], "strong part")
+        cut = GroundMotion(motion.dt, motion.acceleration[round(STRONG / motion.dt) :], "strong part")
         scenario.build(scenario.Scenario("precision", house, cut, dt=dt, options={"skip_rest": 0, **options}))
         for joint in engines.find_engine(yw.JointEngine).joints if strength else []:
             joint.strength = strength
 
     return build
-
-
-def build_fall(dt, options):
-    """House C, without joints to its foundation and with unbreakable ones else, falls from DROP onto its foundation."""
-    scenario.build(scenario.Scenario("fall", "C", dt=dt, options={"skip_rest": 0, **options}))
-    joints = [j for j in engines.find_engine(yw.JointEngine).joints
-              if O.bodies[j.id1].dynamic and O.bodies[j.id2].dynamic]
-    for joint in joints:
-        joint.strength = UNBREAKABLE
-    for body in O.bodies:
-        if body.dynamic:
-            body.state.pos += Vector3(0, 0, DROP)
-    O.engines = engines.engines(joints=joints, monitor=engines.find_engine(yw.HouseMonitor), **options)
 
 
 def path():
@@ -109,14 +93,6 @@ def drifts():
     return {"drift": np.concatenate([means[level] - means.get(level - 1, 0) for level in sorted(means)])}
 
 
-def height():
-    """Mean displacements of the levels [m]."""
-    monitor = engines.find_engine(yw.HouseMonitor)
-    levels = np.array(monitor.levels)
-    moved = np.array([[*O.bodies[b].state.displ()] for b in monitor.bodies])
-    return {"height": np.concatenate([moved[levels == level].mean(axis=0) for level in sorted(set(levels))])}
-
-
 def joint_forces():
     """Force of each joint [N]."""
     return [sum(f.norm() for f in joint.forces) for joint in engines.find_engine(yw.JointEngine).joints]
@@ -128,31 +104,6 @@ CASES = {  # build, curves, duration [s], smallest time step [s], whether joint 
     "jointed frame": (build_frame, drifts, 1.0, 1e-6, True),
     "standing house C": (build_house("C", UNBREAKABLE), drifts, 0.5, 1e-5, True),
     "collapsing house A": (build_house("A"), drifts, 2.0, 1e-5, False),
-}
-
-
-class StepCase(NamedTuple):
-    """Case of the benchmark of chosen steps. finest, explicit, smallest: steps of the reference, of explicit springs,
-    smallest chosen one [s].
-    """
-
-    build: object
-    curves: object
-    duration: float
-    finest: float
-    explicit: float
-    smallest: float
-    with_joints: bool
-
-
-STEP_CASES = {
-    "impact": StepCase(build_impact, path, 0.03, 1e-6, 1e-5, SAMPLE / 64, False),
-    "rocking block": StepCase(build_rocking, path, 1.0, 2e-6, 5e-5, SAMPLE / 64, False),
-    "jointed frame": StepCase(build_frame, drifts, 1.0, 2e-6, 5e-5, SAMPLE / 8, True),
-    "standing house C": StepCase(build_house("C", UNBREAKABLE, start=17.2), drifts, 1.2, 2.5e-5, 2e-5, SAMPLE / 8,
-                                 True),
-    "collapsing house A": StepCase(build_house("A"), drifts, 1.6, 5e-5, 2e-5, SAMPLE / 8, False),
-    "falling house C": StepCase(build_fall, height, 0.7, 2.5e-5, 2e-5, SAMPLE / 8, False),
 }
 
 

@@ -6,7 +6,6 @@ weight: show_house.py C2 [--snow 1.0] [--out house.png] [--draw-only].
 Without YADE the check is left out.
 """
 import json
-from pathlib import Path
 
 from show_common import Parser, errors_in_a_line, file_name, path
 
@@ -16,8 +15,6 @@ from timber_houses.house import build_house, diagnose, load_house, shipped_house
 from timber_houses.pictures import drawings, pushover
 from timber_houses.pictures.figures import save, stem_and_endings
 from timber_houses.study.own_weight import check_own_weight
-
-SCRIPTS = Path(__file__).resolve().parents[1]
 
 
 def arguments():
@@ -51,7 +48,7 @@ def main():
     if options.draw_only:
         return
     try:
-        print(f"without shaking: {check_own_weight(options.house, options.snow, SCRIPTS)}")
+        print(f"without shaking: {check_own_weight(options.house, options.snow)}")
     except RunError as problem:
         print(f"without shaking: not checked ({problem})")
 

@@ -11,8 +11,7 @@ Exit status 1 when a run failed or is unfinished.
 import sys
 from pathlib import Path
 
-SCRIPTS = Path(__file__).resolve().parents[1]
-sys.path.append(str(SCRIPTS.parent / "py"))  # after the installed package, which the runs use
+sys.path.append(str(Path(__file__).resolve().parents[2] / "py"))  # after the installed package, which the runs use
 
 from timber_houses.study.batch import RUNS, BatchError, read_table, run_rows, write_runs
 from timber_houses.study.batch.table import COLUMNS
@@ -23,20 +22,15 @@ from timber_houses.study.options import Parser, count, results_folder, run_scrip
 def arguments():
     columns = "\n".join(f"  {name:14} {each.metadata['help']}" for name, each in COLUMNS.items())
     parser = Parser(__doc__, epilog=f"columns of a table:\n{columns}")
-    parser.add_argument(
-        "table", type=Path, help="parameter table: a line with the names of the columns, then one line per run"
-    )
+    parser.add_argument("table", type=Path,
+                        help="parameter table: a line with the names of the columns, then one line per run")
     parser.add_argument("-j", "--jobs", type=count, metavar="N", help="runs at a time (default: one per core)")
-    parser.add_argument(
-        "--out", type=results_folder, metavar="DIR", help="folder of the results (default results/<name of the table>)"
-    )
+    parser.add_argument("--out", type=results_folder, metavar="DIR",
+                        help="folder of the results (default results/<name of the table>)")
     parser.add_argument("--retry", action="store_true", help="run failed rows again")
     parser.add_argument("--collect", action="store_true", help="run nothing; write runs.csv for the results there are")
-    parser.add_argument(
-        "--only",
-        metavar="RUN",
-        help="run this row alone (name of the run or line of the table); runs.csv is not written",
-    )
+    parser.add_argument("--only", metavar="RUN",
+                        help="run this row alone (name of the run or line of the table); runs.csv is not written")
     return parser.parse_args()
 
 
@@ -48,7 +42,7 @@ def main():
         return run_one(rows, options.only, folder)
     try:
         if not options.collect:
-            run_rows(rows, folder, SCRIPTS, options.jobs, options.retry)
+            run_rows(rows, folder, options.jobs, options.retry)
     finally:
         found = write_runs(rows, folder)
     report(found, folder)
@@ -60,7 +54,7 @@ def run_one(rows, key, folder):
     chosen = [row for row in rows if key in (row.name, str(row.line))]
     if not chosen:
         raise BatchError(f"--only {key}: no run of that name or line")
-    return int(None in run_rows(chosen, folder, SCRIPTS, jobs=1).values())
+    return int(None in run_rows(chosen, folder, jobs=1).values())
 
 
 def report(found, folder):

@@ -20,6 +20,9 @@ from scipy.special import ndtr
 from study_common import house_name, parser, run_all, save, write_table
 
 from timber_houses.base.colors import BLUE, GREEN, GREY, ORANGE
+from timber_houses.base.time_step import DEFAULT_DT
+from timber_houses.run.options import RunOptions
+from timber_houses.study.batch import Row
 from timber_houses.study.options import count, list_of, non_negative, positive, run_script
 
 SCALES = {"A": [0.5, 0.7, 0.85, 1.0, 1.25], "B": [0.8, 1.0, 1.25, 1.6, 2.0], "C": [1.0, 1.25, 1.6, 2.0, 2.5]}
@@ -38,36 +41,27 @@ STYLES = {"A": (ORANGE, "o"), "B": (BLUE, "s"), "C": (GREEN, "^")}
 
 def arguments():
     made = parser(__doc__, "results/study_fragility")
-    made.add_argument(
-        "--seeds", type=count, default=LEAST_RUNS, metavar="N", help="motions per point (default %(default)s)"
-    )
+    made.add_argument("--seeds", type=count, default=LEAST_RUNS, metavar="N",
+                      help="motions per point (default %(default)s)")
     made.add_argument("--houses", default="A,B,C", help="shipped houses or house files (default %(default)s)")
-    made.add_argument(
-        "--snow", type=list_of(non_negative), default=[0.0, 1.0], metavar="M,M", help="snow depths [m] (default 0,1)"
-    )
-    made.add_argument(
-        "--scales", type=list_of(positive), metavar="X,X",
-        help="factors on the motion (default: a range for each house)",
-    )
+    made.add_argument("--snow", type=list_of(non_negative), default=[0.0, 1.0], metavar="M,M",
+                      help="snow depths [m] (default 0,1)")
+    made.add_argument("--scales", type=list_of(positive), metavar="X,X",
+                      help="factors on the motion (default: a range for each house)")
     return made.parse_args()
 
 
 def rows(options):
     """Rows of the batch: house x snow x scale x seed."""
-    return [
-        {
-            "house": house_name(house),
-            "description": f"snow{snow:g}_scale{scale:g}_seed{seed}",
-            "snow": f"{snow:g}",
-            "scale": f"{scale:g}",
-            "seed": seed,
-            "until_collapse": "yes",
-        }
-        for house in options.houses.split(",")
-        for snow in options.snow
-        for scale in options.scales or SCALES.get(house, SCALES["B"])
-        for seed in range(1, options.seeds + 1)
-    ]
+    return [row(options, house, snow, scale, seed) for house in options.houses.split(",") for snow in options.snow
+            for scale in options.scales or SCALES.get(house, SCALES["B"]) for seed in range(1, options.seeds + 1)]
+
+
+def row(options, house, snow, scale, seed):
+    name = f"snow{snow:g}_scale{scale:g}_seed{seed}"
+    return Row(RunOptions(house=house_name(house), quake=True, snow=snow, scale=scale, seed=seed, until_collapse=True,
+                          start=options.start, end=options.end, dt=options.dt or DEFAULT_DT), description=name,
+               place=name)
 
 
 def points(found):
@@ -76,7 +70,7 @@ def points(found):
     """
     groups = {}
     for entry in found:
-        groups.setdefault((entry["house"], float(entry["snow"]), float(entry["scale"])), []).append(entry)
+        groups.setdefault((entry["house"], entry["snow"], entry["scale"]), []).append(entry)
     return [_point(label(house), snow, scale, entries) for (house, snow, scale), entries in groups.items()]
 
 
@@ -90,12 +84,9 @@ def _point(house, snow, scale, entries):
     collapsed = sum(entry["collapsed"] for entry in done)
     low, high = stats.binomtest(collapsed, len(done)).proportion_ci(CONFIDENCE, "exact") if done else (0.0, 1.0)
     times = [entry["collapse_time_s"] for entry in done if entry["collapsed"]]
-    return {
-        "house": house, "snow_m": snow, "scale": scale, "runs": len(done), "collapsed": collapsed,
-        "share": collapsed / len(done) if done else float("nan"),
-        "low": float(low), "high": float(high), "failed": len(entries) - len(done),
-        "median_collapse_time_s": float(np.median(times)) if times else "",
-    }
+    return {"house": house, "snow_m": snow, "scale": scale, "runs": len(done), "collapsed": collapsed,
+            "share": collapsed / len(done) if done else float("nan"), "low": float(low), "high": float(high),
+            "failed": len(entries) - len(done), "median_collapse_time_s": float(np.median(times)) if times else ""}
 
 
 def fit(curve, start=None):
@@ -160,9 +151,8 @@ def median_text(curve):
 
 
 def plot(table, snows, path):
-    figure, axes = plt.subplots(
-        1, len(snows), figsize=(5.8 * len(snows), 5.4), sharey=True, squeeze=False, constrained_layout=True
-    )
+    figure, axes = plt.subplots(1, len(snows), figsize=(5.8 * len(snows), 5.4), sharey=True, squeeze=False,
+                                constrained_layout=True)
     for axis, snow in zip(axes[0], snows):
         for number, house in enumerate(dict.fromkeys(point["house"] for point in table)):
             curve = [point for point in table if point["house"] == house and point["snow_m"] == snow]
@@ -192,23 +182,13 @@ def draw(axis, house, curve, shift):
     colour, marker = STYLES.get(house, (GREY, "D"))
     x, share, low, high = (np.array([point[key] for point in curve]) for key in ("scale", "share", "low", "high"))
     fitted = fit(curve) if has_curve(curve) else None
-    axis.errorbar(
-        x * shift,
-        share,
-        [share - low, high - share],
-        fmt=marker,
-        color=colour,
-        ms=5,
-        lw=1,
-        capsize=2,
-        label=f"house {house}: {median_text(curve)}",
-    )
+    axis.errorbar(x * shift, share, [share - low, high - share], fmt=marker, color=colour, ms=5, lw=1, capsize=2,
+                  label=f"house {house}: {median_text(curve)}")
     if fitted:
         line = np.geomspace(x.min(), x.max(), 200)
         axis.plot(line, share_at(fitted, line), color=colour, lw=1.5)
-        axis.fill_between(
-            line, *band([share_at(found, line) for found in resampled(curve, fitted)]), color=colour, alpha=0.15, lw=0
-        )
+        axis.fill_between(line, *band([share_at(found, line) for found in resampled(curve, fitted)]), color=colour,
+                          alpha=0.15, lw=0)
 
 
 def main():

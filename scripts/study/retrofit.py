@@ -16,14 +16,15 @@ continues.
 from dataclasses import replace
 from pathlib import Path
 
-from study_common import SCRIPTS, house_name
+from study_common import house_name
 
 from timber_houses.base.atomic_write import write_text
 from timber_houses.base.errors import RunError
 from timber_houses.base.time_step import DEFAULT_DT
-from timber_houses.pictures import all_pictures, report
+from timber_houses.pictures import all_pictures
 from timber_houses.study.driver import Task, run_missing
-from timber_houses.study.options import Parser, add_driver_options, count, non_negative, positive, run_script
+from timber_houses.study.options import (Parser, add_driver_options, count, list_of, non_negative, positive,
+                                         run_script)
 from timber_houses.study.retrofit import motions, overview, race
 from timber_houses.study.retrofit.candidates import GROUPS, KINDS, USUAL_KINDS, candidates
 from timber_houses.study.retrofit.runs import Ranking
@@ -33,52 +34,38 @@ def arguments():
     made = Parser(__doc__)
     add_driver_options(made, "results/study_retrofit")
     made.add_argument("house", type=house_name, metavar="HOUSE", help="shipped house or house file")
-    made.add_argument(
-        "--motions",
-        type=count,
-        metavar="N",
-        help=(
-            f"number of synthetic motions (default: {race.TESTS} for the test, and those that select the measures to be"
-            " tested)"
-        ),
-    )
-    made.add_argument(
-        "--records", type=Path, metavar="FOLDER", help="folder of recorded motions, instead of synthetic ones"
-    )
+    made.add_argument("--motions", type=count, metavar="N",
+                      help=f"number of synthetic motions (default: {race.TESTS} for the test, and those that select the"
+                           " measures to be tested)")
+    made.add_argument("--records", type=Path, metavar="FOLDER",
+                      help="folder of recorded motions, instead of synthetic ones")
     made.add_argument("--units", metavar="UNIT", help="unit of records that state none: gal, m/s2 or g")
-    made.add_argument("--pga", type=positive, metavar="GAL", help="scale each motion to this PGA [gal]")
-    made.add_argument("--intensity", type=positive, metavar="I", help="scale each motion to this JMA intensity")
-    made.add_argument("--scale", type=positive, metavar="X", help="factor on each motion")
-    made.add_argument(
-        "--snow", type=non_negative, default=0.0, metavar="M", help="snow depth [m] (default %(default)g)"
-    )
-    made.add_argument(
-        "--kinds",
-        type=lambda text: text.split(","),
-        default=list(USUAL_KINDS),
-        metavar="KIND,KIND",
-        help=f"of {', '.join(KINDS)} (default: {', '.join(USUAL_KINDS)})",
-    )
-    made.add_argument(
-        "--group", choices=GROUPS, default="bay",
-        help="braces and walls in one free bay, or in all free bays of a wall of a storey (default %(default)s)",
-    )
-    made.add_argument(
-        "--only",
-        type=lambda text: text.split(","),
-        default=[""],
-        metavar="TEXT,TEXT",
-        help="only measures whose names contain such a text",
-    )
-    made.add_argument("--dt", type=positive, metavar="S", help=f"time step [s] (default {DEFAULT_DT:g})")
-    made.add_argument(
-        "--end", type=positive, metavar="S", help=f"end of the synthetic motions [s] (default {motions.END:g})"
-    )
-    made.add_argument(
-        "--pictures", type=count, metavar="N", help="repeat the house and the best N measures with pictures and report"
-    )
+    strength = made.add_mutually_exclusive_group()
+    strength.add_argument("--pga", type=positive, metavar="GAL", help="scale each motion to this PGA [gal]")
+    strength.add_argument("--intensity", type=positive, metavar="I", help="scale each motion to this JMA intensity")
+    strength.add_argument("--scale", type=positive, metavar="X", help="factor on each motion")
+    made.add_argument("--snow", type=non_negative, default=0.0, metavar="M",
+                      help="snow depth [m] (default %(default)g)")
+    made.add_argument("--kinds", type=list_of(str), default=list(USUAL_KINDS), metavar="KIND,KIND",
+                      help=f"of {', '.join(KINDS)} (default: {', '.join(USUAL_KINDS)})")
+    made.add_argument("--group", choices=GROUPS, default="bay", help="braces and walls in one free bay, or in all free"
+                      " bays of a wall of a storey (default %(default)s)")
+    made.add_argument("--only", type=list_of(str), default=[""], metavar="TEXT,TEXT",
+                      help="only measures whose names contain such a text")
+    made.add_argument("--dt", type=positive, default=DEFAULT_DT, metavar="S",
+                      help="time step [s] (default %(default)g)")
+    made.add_argument("--end", type=positive, default=motions.END, metavar="S",
+                      help="end of the synthetic motions [s] (default %(default)g)")
+    made.add_argument("--pictures", type=count, metavar="N",
+                      help="repeat the house and the best N measures with pictures and report")
     made.add_argument("--dry-run", action="store_true", help="check all rows, print the number of runs, and end")
     return made.parse_args()
+
+
+def target_of(options):
+    """{'pga' | 'intensity' | 'scale': number} of the motions, empty where the ranking chooses their strength."""
+    given = {key: getattr(options, key) for key in ("pga", "intensity", "scale")}
+    return {key: value for key, value in given.items() if value is not None}
 
 
 def ranking_of(options):
@@ -86,38 +73,25 @@ def ranking_of(options):
     unknown = set(options.kinds) - set(KINDS)
     if unknown:
         raise RunError(f"--kinds {', '.join(sorted(unknown))}: must be of {', '.join(KINDS)}")
-    target = {key: getattr(options, key) for key in ("pga", "intensity", "scale") if getattr(options, key) is not None}
-    if len(target) > 1:
-        raise RunError(f"--{' and --'.join(target)} exclude each other; give one of them")
     found = candidates(options.house, options.snow, options.kinds, options.only, options.group)
     if not found:
         raise RunError(f"{options.house}: no measure of these kinds and names")
     number = options.motions or race.default_motions(len(found))
-    shaking = (
-        motions.records(options.records, target, options.units) if options.records else motions.seeds(number, target)
-    )
-    if options.end is not None and not options.records:
-        shaking = [(name, {**cells, "end": f"{options.end:g}"}) for name, cells in shaking]
+    shaking = (motions.records(options.records, target_of(options), options.units) if options.records
+               else motions.seeds(number, target_of(options), options.end))
     needed = race.needed_motions(len(found))
     if len(shaking) < needed:
-        raise RunError(
-            f"{len(shaking)} motions are too few to select and to test {len(found)} measures; give at least {needed}"
-        )
-    same = {
-        "house": options.house,
-        "snow": f"{options.snow:g}",
-        "until_collapse": "yes",
-        **({"dt": f"{options.dt:g}"} if options.dt else {}),
-    }
-    return Ranking(options.out, found, shaking, same, SCRIPTS, options.jobs)
+        raise RunError(f"{len(shaking)} motions are too few to select and to test {len(found)} measures; give at least"
+                       f" {needed}")
+    same = {"house": options.house, "snow": options.snow, "until_collapse": True, "dt": options.dt}
+    return Ranking(options.out, found, shaking, same, options.jobs)
 
 
 def cheaper(ranking, options):
     """'; --group wall: 120' where a ranking of whole walls has fewer runs, else ''."""
     grouped = len(candidates(options.house, options.snow, options.kinds, options.only, "wall"))
-    return (
-        f"; --group wall: {race.cost(len(ranking.motions), grouped)}" if 0 < grouped < len(ranking.candidates) else ""
-    )
+    fewer = 0 < grouped < len(ranking.candidates)
+    return f"; --group wall: {race.cost(len(ranking.motions), grouped)}" if fewer else ""
 
 
 def pictures(ranking, results, number):
@@ -126,51 +100,31 @@ def pictures(ranking, results, number):
     """
     worst = max(ranking.tests, key=lambda motion: race.response(ranking.house.runs[motion]))
     chosen = [ranking.house, *(result.entry for result in results[:number] if worst in result.entry.runs)]
-    tasks = []
-    for entry in chosen:
-        task = ranking.task(entry, worst)
-        tasks.append(
-            Task(
-                task.script, ranking.folder / "pictures" / entry.candidate.name, replace(task.options, no_frames=False)
-            )
-        )
-    done = run_missing(tasks, SCRIPTS, ranking.jobs)
-    for task in (task for task in tasks if done[task]):
-        all_pictures.write(task.folder)
-        report.write(task.folder)
-    return [
-        (f"{entry.candidate.text}, {worst}", task.folder.relative_to(ranking.folder))
-        for entry, task in zip(chosen, tasks)
-        if done[task]
-    ]
+    tasks = {entry.candidate.text: Task(ranking.folder / "pictures" / entry.candidate.name,
+                                        replace(ranking.task(entry, worst).options, no_frames=False))
+             for entry in chosen}
+    done = run_missing(tasks.values(), ranking.jobs)
+    drawn = {text: task.folder for text, task in tasks.items() if done[task]}
+    for folder in drawn.values():
+        all_pictures.draw(folder, views=True, page=True)
+    return [(f"{text}, {worst}", folder.relative_to(ranking.folder)) for text, folder in drawn.items()]
 
 
 def write(ranking, options, strength, shown=()):
     """Write overview and table; returns the results. strength: sentence about the choice of the motions' strength"""
-    results = race.ranking(ranking.entries, ranking.house, ranking.tests)
-    scaled = "".join(
-        f", {key} {getattr(options, key):g}"
-        for key in ("pga", "intensity", "scale")
-        if getattr(options, key) is not None
-    )
+    results, name = race.ranking(ranking.entries, ranking.house, ranking.tests), Path(options.house).stem
+    scaled = "".join(f", {key} {value:g}" for key, value in target_of(options).items())
     source = f"records of {options.records.name}" if options.records else "synthetic motions like the Ojiya record"
     snow = f", {options.snow:g} m of snow" if options.snow else ""
     filled = ", those with braces or walls in all free bays of a wall at once" if options.group == "wall" else ""
     runs = [run for entry in (ranking.house, *ranking.entries) for run in entry.runs.values()]
-    about = [
-        (
-            f"House {Path(options.house).stem}{snow}; {len(ranking.motions)} {source}{scaled};"
-            f" {len(ranking.candidates)} measures{filled}."
-        ),
-        f"{len(runs)} runs, {sum(run['wall_s'] for run in runs) / 60:.0f} minutes of computing.",
-        *filter(None, [strength]),
-        overview.summary(results),
-    ]
+    about = [f"House {name}{snow}; {len(ranking.motions)} {source}{scaled};"
+             f" {len(ranking.candidates)} measures{filled}.",
+             f"{len(runs)} runs, {sum(run['wall_s'] for run in runs) / 60:.0f} minutes of computing.",
+             *filter(None, [strength]), overview.summary(results)]
     write_text(ranking.folder / "retrofit.csv", overview.table_text(results))
-    write_text(
-        ranking.folder / "index.html",
-        overview.page(f"Strengthening of house {Path(options.house).stem}", about, results, ranking.house, shown),
-    )
+    write_text(ranking.folder / "index.html",
+               overview.page(f"Strengthening of house {name}", about, results, ranking.house, shown))
     return results
 
 
@@ -182,8 +136,7 @@ def main():
     print(f"{len(ranking.candidates)} measures, {len(ranking.motions)} motions: {runs} runs{cheaper(ranking, options)}")
     if options.dry_run:
         return 0
-    is_given = options.pga or options.intensity or options.scale
-    strength = "" if is_given else ranking.choose_scale()
+    strength = "" if target_of(options) else ranking.choose_scale()
     ranking.run()
     results = write(ranking, options, strength)
     if options.pictures:

@@ -6,8 +6,7 @@ continues.
 import sys
 from pathlib import Path
 
-SCRIPTS = Path(__file__).resolve().parents[1]
-sys.path.append(str(SCRIPTS.parent / "py"))  # after the installed package, which the runs use
+sys.path.append(str(Path(__file__).resolve().parents[2] / "py"))  # after the installed package, which the runs use
 
 import matplotlib.style
 
@@ -17,7 +16,7 @@ matplotlib.style.use("default")  # whatever the matplotlibrc of the user says
 from timber_houses.base.atomic_write import write_text, written_whole
 from timber_houses.base.errors import RunError
 from timber_houses.base.table import csv_text
-from timber_houses.study.batch import read_table, run_rows, write_runs
+from timber_houses.study.batch import run_rows, write_runs
 from timber_houses.study.options import Parser, add_driver_options, non_negative, positive, results_folder
 from timber_houses.study.retrofit.motions import END, START
 
@@ -26,18 +25,13 @@ def parser(about, folder):
     """ArgumentParser with the options of every study."""
     made = Parser(about)
     add_driver_options(made, folder)
-    made.add_argument(
-        "--start", type=non_negative, default=START, metavar="S",
-        help="start of the part of the motion that is run [s] (default %(default)g)",
-    )
-    made.add_argument(
-        "--end", type=positive, default=END, metavar="S", help="end of that part [s] (default %(default)g)"
-    )
+    made.add_argument("--start", type=non_negative, default=START, metavar="S",
+                      help="start of the part of the motion that is run [s] (default %(default)g)")
+    made.add_argument("--end", type=positive, default=END, metavar="S",
+                      help="end of that part [s] (default %(default)g)")
     made.add_argument("--dt", type=positive, metavar="S", help="time step [s] (default: that of the run scripts)")
-    made.add_argument(
-        "--to", type=results_folder, metavar="DIR",
-        help="folder of the study's CSV and PNG (default: the folder of the runs)",
-    )
+    made.add_argument("--to", type=results_folder, metavar="DIR",
+                      help="folder of the study's CSV and PNG (default: the folder of the runs)")
     return made
 
 
@@ -47,17 +41,11 @@ def house_name(text):
 
 
 def run_all(rows, options):
-    """Run the rows (dicts with the same columns) as a batch; returns the rows of runs.csv. Raises BatchError, RunError,
-    OSError.
-    """
+    """Run Rows as a batch; returns the rows of runs.csv. Raises BatchError, RunError, OSError."""
     if not rows:
         raise RunError("the options select no run")
-    table = options.out / "table.csv"
-    rows = [{**row, "start": options.start, "end": options.end, "dt": options.dt or "*"} for row in rows]
-    write_text(table, csv_text(list(rows[0]), [row.values() for row in rows]))
-    table_rows = read_table(table)
-    run_rows(table_rows, options.out, SCRIPTS, options.jobs)
-    return write_runs(table_rows, options.out)
+    run_rows(rows, options.out, options.jobs)
+    return write_runs(rows, options.out)
 
 
 def write_table(path, rows):

@@ -21,8 +21,7 @@ from pathlib import Path
 
 import numpy as np
 
-SCRIPTS = Path(__file__).resolve().parents[1]
-sys.path.append(str(SCRIPTS.parent / "py"))  # after the installed package, which the runs use
+sys.path.append(str(Path(__file__).resolve().parents[2] / "py"))  # after the installed package, which the runs use
 
 import house_storeys
 from graded_houses import TEST, add_motion_options, before_failure, motion_of, tasks
@@ -311,7 +310,7 @@ def main():
     runs = {case: tasks(path, shaking, given.seeds, given.out) if case.has_runs else []
             for case, path in files.items()}
     if not given.only_done:
-        run_missing([task for each in runs.values() for task in each], SCRIPTS, given.jobs)
+        run_missing([task for each in runs.values() for task in each], given.jobs)
     rows = rows_of(given, runs, files, motion)
     if not rows:
         raise RunError(f"{given.out}: no run of these rows is done")

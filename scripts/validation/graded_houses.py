@@ -21,8 +21,7 @@ from pathlib import Path
 
 import numpy as np
 
-SCRIPTS = Path(__file__).resolve().parents[1]
-sys.path.append(str(SCRIPTS.parent / "py"))  # after the installed package, which the runs use
+sys.path.append(str(Path(__file__).resolve().parents[2] / "py"))  # after the installed package, which the runs use
 
 import matplotlib
 
@@ -51,7 +50,7 @@ TEST = {1.0: "storey 1 collapses", 1.25: "stands, joints loosened", 1.5: "stands
 
 def tasks(path, shaking, seeds, folder):
     """Runs of a house; seed 1 is undisturbed."""
-    return [Task("house", folder / path.stem / f"{number:03d}",
+    return [Task(folder / path.stem / f"{number:03d}",
                  RunOptions(house=str(path.resolve()), **shaking, until_collapse=True,
                             disturb=number if number > 1 else None, no_frames=True))
             for number in range(1, seeds + 1)]
@@ -166,7 +165,7 @@ def main():
     files = {(grade, level): house_file(given.out, grade, level, given.rule) for level in levels
              for grade in RULES[given.rule]}
     runs = {key: tasks(path, shaking, given.seeds, given.out) for key, path in files.items()}
-    run_missing([task for each in runs.values() for task in each], SCRIPTS, given.jobs)
+    run_missing([task for each in runs.values() for task in each], given.jobs)
     rows = []
     for key, each in runs.items():
         results = [load_run(task.folder) for task in each if task.summary is not None]

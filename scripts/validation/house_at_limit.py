@@ -11,8 +11,7 @@ import sys
 from itertools import product
 from pathlib import Path
 
-SCRIPTS = Path(__file__).resolve().parents[1]
-sys.path.append(str(SCRIPTS.parent / "py"))  # after the installed package, which the runs use
+sys.path.append(str(Path(__file__).resolve().parents[2] / "py"))  # after the installed package, which the runs use
 
 from wall_grades import house_file
 
@@ -56,11 +55,11 @@ def main():
     given = parsed()
     given.out.mkdir(parents=True, exist_ok=True)
     house = str(house_file(given.out, GRADE, LEVEL, RULE).resolve())
-    tasks = {(factor, dt): Task("house", given.out / f"{factor:g}_{dt:g}",
+    tasks = {(factor, dt): Task(given.out / f"{factor:g}_{dt:g}",
                                 RunOptions(house=house, record=str(given.record), start=given.start, end=given.end,
                                            scale=factor, dt=dt, until_collapse=True, no_frames=True))
              for factor, dt in product(FACTORS, STEPS)}
-    run_missing(list(tasks.values()), SCRIPTS, given.jobs)
+    run_missing(list(tasks.values()), given.jobs)
     table = csv_text(HEADS, [row_of(*key, task.folder) for key, task in tasks.items() if task.summary is not None])
     path = (given.to or given.out) / f"{given.out.name}.csv"
     write_text(path, table)

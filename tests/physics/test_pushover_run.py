@@ -8,7 +8,7 @@ from timber_houses.base.gravity import weight_of
 from timber_houses.house import build_house, load_house
 from timber_houses.house.pushover import pushover, secant_periods
 from timber_houses.motion import GroundMotion
-from timber_houses.pictures import quantities
+from timber_houses.recording.quantities import Storeys
 
 BOX = """
 extends: plated
@@ -47,9 +47,10 @@ def test_slow_push(tmp_path):
     east = PEAK * np.clip((time - 1) / (TIME - 1), 0, None)
     th.run(tmp_path / "box.yaml", motion=GroundMotion(0.01, np.column_stack([east, 0 * east, 0 * east])), duration=TIME,
            out=tmp_path / "out", no_frames=True, quiet=True)
-    model, found = build_house(load_house(tmp_path / "box.yaml")), quantities.read(tmp_path / "out")
-    times, shears = found.storeys.time, np.abs(found.storeys.column("shear_ew1")) / 1000
-    drifts = np.abs(np.interp(times, found.history.time, found.history.drift(1, "ew")))
+    model, storeys = build_house(load_house(tmp_path / "box.yaml")), Storeys.read(tmp_path / "out" / "storeys.csv")
+    history = th.load_run(tmp_path / "out").history
+    times, shears = storeys.time, np.abs(storeys.column("shear_ew1")) / 1000
+    drifts = np.abs(np.interp(times, history.time, history.drift(1, "ew")))
     curve = np.transpose(pushover(model, "main")[1, "ew"])
     late = times > TIME / 2
     rocking = weight_of(sum(e.mass for e in model.of_kind("roof", "beam"))) * 0.12 / 2.7
@@ -82,7 +83,7 @@ def test_free_vibration(tmp_path, house, push):
     east = push * np.clip(time - 1, 0, 1) * (time < release)
     th.run(tmp_path / "box.yaml", motion=GroundMotion(step, np.column_stack([east, 0 * east, 0 * east])), duration=end,
            out=tmp_path / "out", no_frames=True, quiet=True)
-    model, history = build_house(load_house(tmp_path / "box.yaml")), quantities.read(tmp_path / "out").history
+    model, history = build_house(load_house(tmp_path / "box.yaml")), th.load_run(tmp_path / "out").history
     curves, drift = pushover(model, "main"), history.drift(1, "ew")
     passes = np.flatnonzero((np.diff(np.sign(drift)) != 0) & (history.time[:-1] > release))
     times = history.time[passes] - drift[passes] * np.diff(history.time)[passes] / np.diff(drift)[passes]

@@ -5,7 +5,7 @@ import pytest
 import yade.wrapper as yw
 import yade_timber as yt
 from timber_houses.motion import GroundMotion
-from timber_houses.recording.frames import Motion
+from timber_houses.recording.record import Motion
 from timber_houses.recording.quantities import storeys
 from timber_houses.scene.modes import SLOWEST, natural_modes
 

@@ -43,9 +43,9 @@ def test_format_of_yade_batch(table):
     """Comments, empty lines, quotes, defaults, repetition, yade-batch's own columns."""
     rows = table(TABLE)
     assert [row.line for row in rows] == [4, 5, 6]
-    assert rows[0].cells == {"house": "B", "scale": "0.5"} and rows[0].value("snow") is None
-    assert rows[1].cells == {"house": "B", "scale": "2", "snow": "1.0"} and rows[1].value("snow") == 1.0
-    assert rows[2].cells == {"house": "A", "scale": "2", "snow": "1.0"} and rows[2].description == "strong"
+    assert [row.cells for row in rows] == [{"house": "B", "scale": 0.5}, {"house": "B", "scale": 2.0, "snow": 1.0},
+                                           {"house": "A", "scale": 2.0, "snow": 1.0}]
+    assert rows[2].description == "strong"
 
 
 def test_names_follow_content_not_line(table):
@@ -62,7 +62,7 @@ def test_house_files_are_relative_to_the_table(table, tmp_path, monkeypatch):
     (tmp_path / "elsewhere" / "mine.yaml").write_text("extends: A")
     monkeypatch.chdir(tmp_path / "elsewhere")
     rows = table("house scale\nmine.yaml 1\nA 1\nnope 1\n")
-    assert [row.house for row in rows] == [str(tmp_path / "mine.yaml"), "A", "nope"]
+    assert [row.options.house for row in rows] == [str(tmp_path / "mine.yaml"), "A", "nope"]
 
 
 def test_names_follow_house_and_record(table, tmp_path):
@@ -75,8 +75,8 @@ def test_names_follow_house_and_record(table, tmp_path):
     for folder in "abcd":
         (tmp_path / folder / "runs.txt").write_text("house record\nmine.yaml rec.csv\n")
         rows[folder] = read_table(tmp_path / folder / "runs.txt")[0]
-        assert rows[folder].house == str(tmp_path / folder / "mine.yaml")
-        assert rows[folder].record == str(tmp_path / folder / "rec.csv")
+        assert rows[folder].options.house == str(tmp_path / folder / "mine.yaml")
+        assert rows[folder].options.record == str(tmp_path / folder / "rec.csv")
     assert len({row.name for row in rows.values()}) == 3 and rows["a"].name == rows["d"].name
 
 
@@ -101,16 +101,15 @@ def test_refused_tables(table, text, part):
     assert part in str(caught.value) and "\n" not in str(caught.value)
 
 
-def test_refused_values(table):
-    row = table("house scale seed resample\nB two 1.5 maybe\n")[0]
-    for column, value in (("scale", "two"), ("seed", "1.5"), ("resample", "maybe")):
-        with pytest.raises(RunError, match=f"runs.txt:2, column {column}: '{value}'"):
-            row.value(column)
+@pytest.mark.parametrize("column, value", [("scale", "two"), ("seed", "1.5"), ("resample", "maybe")])
+def test_refused_values(table, column, value):
+    with pytest.raises(RunError, match=f"runs.txt:2, column {column}: '{value}'"):
+        table(f"house {column}\nB {value}\n")
 
 
 def test_a_seed_without_an_earthquake(table):
     with pytest.raises(RunError, match="runs.txt:2, column seed: the column record is none"):
-        table("house record seed\nB none 5\n")[0].options()
+        table("house record seed\nB none 5\n")
 
 
 def test_comma_separated_values(table):
@@ -118,22 +117,23 @@ def test_comma_separated_values(table):
     end.
     """
     (first, second) = table('\ufeffhouse,description,scale,set,snow\nB,"calm, long",0.5,,\n=,strong,2,a=1;b=2,1')
-    assert (first.cells, first.description) == ({"house": "B", "scale": "0.5"}, "calm, long")
-    assert second.cells == {"house": "B", "scale": "2", "set": "a=1;b=2", "snow": "1"}
+    assert (first.cells, first.description) == ({"house": "B", "scale": 0.5}, "calm, long")
+    assert second.cells == {"house": "B", "scale": 2.0, "set": "a=1;b=2", "snow": 1.0}
     assert first.name.startswith("calm_long-")
 
 
-def test_a_value_may_contain_a_number_sign(table):
+def test_a_value_may_contain_a_number_sign(table, tmp_path):
     """A comment begins at the start of the line or after a blank, outside quotes."""
     rows = table('house,record,set # columns\nA,rec#1.csv,"a=b # c"  # first\n# none\n')
-    assert [row.cells for row in rows] == [{"house": "A", "record": "rec#1.csv", "set": "a=b # c"}]
+    assert [row.cells for row in rows] == [{"house": "A", "record": str(tmp_path / "rec#1.csv"),
+                                        "set": "a=b # c"}]
 
 
 def test_records_are_named_as_on_the_command_line(table, tmp_path, monkeypatch):
     monkeypatch.setenv("HOME", str(tmp_path / "me"))
     first, second = table('house,record\nA,"a.NS, b/a.EW"\nA,~/a.csv')
-    assert first.record == f"{tmp_path / 'a.NS'},{tmp_path / 'b' / 'a.EW'}"
-    assert second.record == str(tmp_path / "me" / "a.csv")
+    assert first.options.record == f"{tmp_path / 'a.NS'},{tmp_path / 'b' / 'a.EW'}"
+    assert second.options.record == str(tmp_path / "me" / "a.csv")
 
 
 @pytest.mark.parametrize("text, remedy", [
@@ -146,7 +146,7 @@ def test_records_are_named_as_on_the_command_line(table, tmp_path, monkeypatch):
 ])
 def test_commas_are_answered_with_the_remedy(table, text, remedy):
     with pytest.raises(RunError, match=remedy):
-        [row.value("scale") for row in table(text)]
+        table(text)
 
 
 SUMMARY = {
@@ -211,7 +211,7 @@ def test_empty_columns_of_a_spreadsheet(tmp_path):
     """Columns and lines that were once used; a value without a column's name is refused."""
     (tmp_path / "a.csv").write_text("house,snow,duration,,,\nB,1,0.02,,,\n,,,,,\n", encoding="utf-8-sig")
     (row,) = read_table(tmp_path / "a.csv")
-    assert row.cells == {"house": "B", "snow": "1", "duration": "0.02"}
+    assert row.cells == {"house": "B", "snow": 1.0, "duration": 0.02}
     (tmp_path / "a.csv").write_text("house,snow,,\nB,1,2,\n")
     with pytest.raises(BatchError, match="a.csv:2: the value '2' is in a column without a name"):
         read_table(tmp_path / "a.csv")

@@ -157,7 +157,7 @@ def test_the_run_that_is_shown(found, number):
 def finished(tmp_path):
     """(RunOptions, tasks, summaries) of an ensemble of three runs in tmp_path; the third collapses."""
     options = scripted("modelA_quake", "A", True, out=tmp_path, ensemble=3, quiet=True, scale=2.0)
-    planned = runs.tasks("modelA_quake", options)
+    planned = runs.tasks(options)
     found = [summary(drift=0.1), summary(drift=0.12), summary("collapsed", 1.3, 2.9)]
     found = [replace(one, made_from=made_from(task.options)) for task, one in zip(planned, found)]
     for number, (task, one) in enumerate(zip(planned, found)):
@@ -178,9 +178,8 @@ def test_tasks_are_disturbed_but_the_first(finished):
     assert [(task.options.scale, task.options.disturb) for task in planned] == [(2.0, None), (2.0, 2), (2.0, 3)]
     assert [task.folder.relative_to(options.folder).as_posix()
             for task in planned] == ["runs/001", "runs/002", "runs/003"]
-    assert [task.words() for task in runs.tasks("modelA_quake", replace(options, ensemble=5))[:3]] == [
-        task.words() for task in planned
-    ]
+    assert [task.request() for task in runs.tasks(replace(options, ensemble=5))[:3]] == [
+        task.request() for task in planned]
 
 
 def test_a_changed_house_file_outdates_its_runs(tmp_path):
@@ -208,7 +207,7 @@ def test_reason_of_a_run_without_results(finished):
 def complete(options, planned, monkeypatch):
     """`complete` in which no run is started."""
     monkeypatch.setattr(runs, "run_missing", lambda tasks, *_: {task: task.summary for task in tasks})
-    runs.complete(ROOT / "scripts" / "modelA_quake.py", options)
+    runs.complete(options)
 
 
 def test_files_of_an_ensemble(finished, monkeypatch):

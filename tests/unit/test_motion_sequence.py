@@ -145,10 +145,9 @@ def test_the_column_of_a_table(files):
     path = files / "runs.txt"
     path.write_text("house record then gap\nC fore.csv main.csv@0.8 3\n")
     row, = read_table(path)
-    assert row.then == f"{files / 'main.csv'}@0.8" and row.value("gap") == 3.0
-    assert following(row.then, "then")[0][1] == 0.8 and read_motion(row.record).dt == pytest.approx(0.01)
+    found = row.options
+    assert found.then == f"{files / 'main.csv'}@0.8" and found.gap == 3.0
+    assert following(found.then, "then")[0][1] == 0.8 and read_motion(found.record).dt == pytest.approx(0.01)
     before = row.name
     write_csv(motion(0.01, 500, "main", 2), files / "main.csv")
-    from timber_houses.study.batch import table
-    table._record_digest.cache_clear()
     assert read_table(path)[0].name != before

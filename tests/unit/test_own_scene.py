@@ -9,7 +9,6 @@ from file_limit import file_limit
 from timber_houses.base.errors import RunError
 from timber_houses.pictures import player, sheets, vtk
 from timber_houses.recording import append_log, frames
-from timber_houses.recording.peaks import Peaks
 from yade import O, utils
 from yade_timber import log
 
@@ -51,8 +50,8 @@ def test_pictures(made, tmp_path):
     read = frames.load(made)
     page = player.make([(made, read)], tmp_path / "player.html").read_text()
     assert "blocks" in page and "Not ended" not in page
-    assert player.info(read, Peaks())["origin"] == "yade-timber"  # whether the ground moves is unknown
-    assert [player.info(read, Peaks())["joint_list"][0]["place"], player.breaks(read)] == ["joint", []]
+    assert player.info(read)["origin"] == "yade-timber"  # whether the ground moves is unknown
+    assert [player.info(read)["joint_list"][0]["place"], player.breaks(read)] == ["joint", []]
     files = vtk.export(tmp_path / "vtk", read, every=10)
     assert [file.read_text().count("<DataSet") for file in files] == [4, 4, 31]
     assert sheets.sheet(read, sheets.VIEWS[0], sheets.PRINT).axes

@@ -19,7 +19,7 @@ from timber_houses.pictures.figures import new_figure
 from timber_houses.pictures.raster import Window, shade
 from timber_houses.pictures.views import View
 from timber_houses.recording import frames as recorded
-from timber_houses.recording.frames import placed
+from timber_houses.recording.record import placed
 
 SOUTH = View("south", "From the south", (1, 0, 0), (0, -1, 0), "west", "east")
 BEFORE, PARTLY, BROKEN = 1.95, 2.05, 2.15
@@ -129,7 +129,7 @@ def test_film_shows_the_same(run):
 
 def test_player_has_the_same_plates(run):
     plates, arrays = panels.plates(run), player.arrays(run)
-    assert player.info(run, player.peaks.Peaks())["plates"] == [
+    assert player.info(run)["plates"] == [
         {"body": plate.body, "sheet": plate.sheet, "torn": plate.torn} for plate in plates]
     assert arrays["plate_vertices"][0] == pytest.approx(np.concatenate([plate.vertices for plate in plates]))
 

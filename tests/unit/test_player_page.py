@@ -10,7 +10,7 @@ from browser import errors, picture, wait
 from player_page import (LYING_PHONE, MIDDLE, PHONE, ROOF_IS_DARK, WIDE, ask, at_rest, between, click, load, pixels,
                          press, reshape, roof_is_drawn)
 from timber_houses.pictures import key_times, player
-from timber_houses.recording import frames
+from timber_houses.recording.record import placed
 
 pytest_plugins = ["player_fixtures"]
 
@@ -26,7 +26,7 @@ def is_wood(color):
 def recorded(run, name, time, point=(0, 0, 0)):
     """Where a point of an element is at the time of a frame. [m]"""
     k, frame = run.elements.name.index(name), run.at(time)
-    return frames.placed([point], run.position[frame, k], run.orientation[frame, k])[0]
+    return placed([point], run.position[frame, k], run.orientation[frame, k])[0]
 
 
 def test_the_page_shows_what_the_data_say(still, pages):

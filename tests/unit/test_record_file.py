@@ -9,7 +9,8 @@ import pytest
 from timber_houses.base import record_file
 from timber_houses.base.errors import RunError
 from timber_houses.base.record_file import open_record, read_record
-from timber_houses.recording import append_log, ensemble, frames, peaks
+from timber_houses.base.table import read_rows
+from timber_houses.recording import append_log, ensemble, frames
 from timber_houses.recording.history import History
 from timber_houses.recording.summary import Summary
 from timber_houses.run.options import RunOptions
@@ -24,9 +25,8 @@ READERS = {
     "summary.json": Summary.read,
     "ensemble.json": ensemble.read,
     "history.csv": lambda folder: History.read(folder / "history.csv"),
-    "breaks.csv": lambda folder: peaks.rows(folder / "breaks.csv"),
-    "joints.csv": peaks.read,
-    "run.json": lambda folder: Task("run", folder, RunOptions(house="A")).error,
+    "breaks.csv": lambda folder: read_rows(folder / "breaks.csv"),
+    "run.json": lambda folder: Task(folder, RunOptions(house="A")).error,
 }
 """{file: what reads it in a folder}. The checkpoint: test_cli_errors."""
 

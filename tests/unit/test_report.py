@@ -8,20 +8,22 @@ from dataclasses import replace
 from pathlib import Path
 
 import frames_sample
+import h5py
 import numpy as np
 import pytest
 from markupsafe import escape
 from summaries import sample_summary
 from timber_houses.base.errors import RunError
-from timber_houses.pictures import figures, quantities, report, report_pictures
+from timber_houses.base.table import read_rows
+from timber_houses.pictures import figures, player, quantities, report, report_pictures
 from timber_houses.pictures.key_times import LAG, last_shown
-from timber_houses.recording import peaks
 from timber_houses.recording.failures import first_failures
 from timber_houses.recording.events import Collapse, Event, SnowFallen
 from timber_houses.recording.summary import Summary
 from timber_houses.recording.summary_parts import Mode, ModesAt, OtherWalls, Walls, Weight
 from timber_houses.recording.quantities import SUSTAINED, Storeys, band_limited, ground_velocity, storeys
-from timber_houses.recording.frames import Motion, load
+from timber_houses.recording.frames import load, save
+from timber_houses.recording.record import Motion
 from timber_houses.run.options import RunOptions, scripted
 from timber_houses.run.runner import clear
 from timber_houses.text.lines import MOST, lines
@@ -48,14 +50,14 @@ def folder(tmp_path_factory):
 
 def test_files_and_summary(folder):
     """Tables are complete and sorted; the summary's peaks are those of the tables."""
-    found = quantities.read(folder)
-    known, joints, columns = found.summary.quantities, found.joints, found.columns
-    load, uplift = ([float(row[name])
-                     for row in rows]
-                    for rows, name in ((joints, "utilisation [-]"), (columns, "uplift [m]")))
-    assert load == sorted(load, reverse=True) and uplift == sorted(uplift, reverse=True)
+    found, joints, columns = load(folder / "frames.h5"), *(read_rows(folder / name) for name in ("joints.csv",
+                                                                                                "columns.csv"))
+    known = found.summary.quantities
+    loads, uplift = ([float(row[name]) for row in rows]
+                     for rows, name in ((joints, "utilisation [-]"), (columns, "uplift [m]")))
+    assert loads == sorted(loads, reverse=True) and uplift == sorted(uplift, reverse=True)
     assert len(joints) == found.summary.joints.total and len(columns) == found.summary.columns.total
-    assert known.largest_utilisation.value == pytest.approx(load[0], abs=1e-4)
+    assert known.largest_utilisation.value == pytest.approx(loads[0], abs=1e-4)
     assert known.largest_pull.force == pytest.approx(
         max(float(row["pull [N]"]) for row in joints if row["strength [N]"] != "inf"))
     assert known.until_s is None, "the house stands"
@@ -64,18 +66,32 @@ def test_files_and_summary(folder):
     assert known.storeys["storey1"].mass_above_kg > known.storeys["storey2"].mass_above_kg > 1000
 
 
-def test_peaks_are_those_of_the_summary(folder):
-    known, found = json.loads((folder / "summary.json").read_text())["quantities"], peaks.read(folder)
-    for k, key in enumerate(("largest_pull", "largest_shear")):
-        assert found.forces[known[key]["joint"]][k] == pytest.approx(known[key]["force"])
-        assert 0 < known[key]["force"] <= max(force[k] for force in found.forces.values())
-    highest = known["largest_uplift"]
-    assert found.uplift[highest["column"]] == pytest.approx(highest["uplift_m"], abs=1e-6)
+def test_the_record_has_the_tables(folder):
+    """Numbers and states of the CSV files, to their twelve digits, and the peaks of the summary."""
+    found = load(folder / "frames.h5")
+    known, e, states = found.summary.quantities, found.elements, found.joint_states(-1)
+    joints = {row["joint"]: row for row in read_rows(folder / "joints.csv")}
+    for k, name in enumerate(found.joints.name):
+        assert joints[name]["state"] == states[k]
+        assert [float(joints[name][f"{quantity}"]) for quantity in ("utilisation [-]", "pull [N]", "shear [N]",
+                                                                    "opening [m]")] == pytest.approx(
+            [found.peaks[quantity][k] for quantity in ("load", "pull", "shear", "opening")], rel=1e-11)
+    columns = [(row["column"], row["state"], float(row["uplift [m]"])) for row in read_rows(folder / "columns.csv")]
+    assert [(name, state) for name, state, _ in columns] == [
+        (e.name[k], state) for k, state in zip(found.columns["element"], found.columns["state"])]
+    assert [uplift for *_, uplift in columns] == pytest.approx(found.columns["uplift"], rel=1e-11)
+    assert found.storeys.text() == (folder / "storeys.csv").read_text()
+    for quantity, key in (("pull", "largest_pull"), ("shear", "largest_shear")):
+        largest = getattr(known, key)
+        number = found.joints.name.index(largest.joint)
+        assert found.peaks[quantity][number] == pytest.approx(largest.force) and largest.force > 0
+    assert player.uplifts(found)[e.name.index(known.largest_uplift.column)] == pytest.approx(
+        known.largest_uplift.uplift_m, abs=1e-6)
 
 
 def test_shear_is_a_spring_force(folder):
     """Storey shear and drift have the same sign, and while the house stays elastic they are nearly proportional."""
-    found = quantities.read(folder)
+    found = load(folder / "frames.h5")
     drift = np.interp(found.storeys.time, found.history.time, found.history.drift(2, "ns"))
     assert np.corrcoef(drift, found.storeys.column("shear_ns2"))[0, 1] > 0.5
 
@@ -96,14 +112,14 @@ def test_a_resumed_run_has_the_same_tables(folder, tmp_path):
 
 
 def test_page_and_report(folder, tmp_path):
-    for name in ("frames.h5", "summary.json", "history.csv", "storeys.csv", "joints.csv", "columns.csv"):
-        shutil.copy(folder / name, tmp_path / name)
-    page = quantities.page(quantities.read(tmp_path), quantities.DPI)
+    """Of the record alone."""
+    shutil.copy(folder / "frames.h5", tmp_path)
+    page = quantities.page(load(tmp_path / "frames.h5"), quantities.DPI)
     assert [path.suffix for path in figures.save(page, tmp_path / "quantities", ("png", "pdf"))] == [".png", ".pdf"]
     written = report.write(tmp_path)
     page = (tmp_path / report.PAGE).read_text()
     assert page.count("<img") == 4 and not re.search(r'(src|href)="(?!data:)', page), "the page is self-contained"
-    found = Summary.read(tmp_path)
+    found = Summary.read(folder)
     for part in (found.sentence, "Joints nearest to failure", "have reached their strength", "JMA intensity",
                  "snow steadies a braced house".capitalize(),
                  report.weight(found.weight), "scripts/modelB1_quake.py --start=17.5 --duration=1.3"):
@@ -127,18 +143,21 @@ def test_weight(folder):
 
 
 def test_report_of_other_folders(folder, tmp_path):
-    """A folder without results, results of an earlier version, results without frames: one line."""
-    with pytest.raises(RunError, match="no finished run is there"):
+    """A folder without results or without frames, results of an earlier version: one line."""
+    with pytest.raises(RunError, match="the frames of a finished run without --no-frames"):
         report.write(tmp_path)
-    for name in ("history.csv", "storeys.csv", "joints.csv", "columns.csv", "summary.json"):
-        shutil.copy(folder / name, tmp_path / name)
-    with pytest.raises(RunError, match="without --no-frames"):
-        report.write(tmp_path)
-    found = json.loads((tmp_path / "summary.json").read_text())
+    shutil.copy(folder / "frames.h5", tmp_path)
+    found = json.loads((folder / "summary.json").read_text())
     for part in ("weight", "quantities"):
-        (tmp_path / "summary.json").write_text(json.dumps({key: value for key, value in found.items() if key != part}))
+        with h5py.File(tmp_path / "frames.h5", "a") as file:
+            file.attrs["summary"] = json.dumps({key: value for key, value in found.items() if key != part})
         with pytest.raises(RunError, match=f"{part}: missing; repeat the run"):
             report.write(tmp_path)
+    run = load(folder / "frames.h5")
+    run.peaks = None
+    save(tmp_path / "frames.h5", run)
+    with pytest.raises(RunError, match="of a town, .*, or of another version"):
+        report.write(tmp_path)
 
 
 @pytest.mark.parametrize(
@@ -159,9 +178,9 @@ def test_a_motion_from_python_has_no_command():
 
 def test_hostile_names_are_text(folder):
     """Names from files cannot put markup into the page."""
-    results = quantities.read(folder)
-    rows = [{**row, "joint": "<script>alert(1)</script>|b"} for row in results.joints]
-    page = report.page(load(folder / "frames.h5"), replace(results, joints=rows))
+    run = load(folder / "frames.h5")
+    run.joints.name = ["<script>alert(1)</script>|b"] * len(run.joints.name)
+    page = report.page(run)
     assert "<script" not in page and "&lt;script" in page
 
 
@@ -282,14 +301,13 @@ def test_failures_of_one_time_are_one_line():
                   "force": [0.0] * 4}
     failures = first_failures(run)
     assert [(failure.time, failure.joints) for failure in failures] == [(2.2, (0, 1)), (2.2, (3,)), (2.3, (2,))]
-    rows = [{"joint": name, "utilisation [-]": "1.0", "pull [N]": f"{1000 * k}", "shear [N]": "0",
-             "strength [N]": "5880", "state": "whole"} for k, name in enumerate(run.joints.name)]
-    results = quantities.Results(sample_summary(), run.history, None, rows, [])
-    both, stucco, _ = report.failed_joints(run, results, failures)
+    run.peaks = {"load": np.ones(8), "pull": 1000.0 * np.arange(8), "shear": np.zeros(8)}
+    both, stucco, _ = report.failed_joints(run, failures)
     assert both["place"] == "wall1.EW.y0.0-1, plywood and 1 more" and both["forces"][0] == "1.0"
     assert stucco["place"] == "wall1.EW.y0.3-4, stucco"
-    assert report.joints(results) == []
-    assert report.at_strength(results) == f"{len(rows)} of {len(rows)} joints have reached their strength: 8 whole."
+    assert report.joints(run) == []
+    run.broken[-1], run.joints.damaged[:] = 0, False
+    assert report.at_strength(run) == "8 of 8 joints have reached their strength: 8 whole."
 
 
 def test_the_report_names_the_level_of_the_walls():
@@ -310,21 +328,18 @@ def test_report_of_a_collapse():
     """A chain of the first failures instead of joints most loaded after their fall; how far the others were before it.
     """
     run = collapsed_run()
-    rows = [{
-        "joint": name, "utilisation [-]": f"{0.1 * k}", "pull [N]": "4600", "shear [N]": "1500", "strength [N]": "5880",
-        "state": "whole"
-    } for k, name in enumerate(run.joints.name)]
+    run.peaks = {"load": 0.1 * np.arange(8), "pull": np.full(8, 4600.0), "shear": np.full(8, 1500.0)}
+    run.summary, run.joints.damaged[:] = sample_summary(quantities={"until_s": 2.5}), False
     run.broken[:] = 0
     run.broken[run.time > 2.35, 3] = 4
-    results = quantities.Results(sample_summary(quantities={"until_s": 2.5}), run.history, None, rows, [])
     failures = first_failures(run)
-    first, second = report.failed_joints(run, results, failures)
+    first, second = report.failed_joints(run, failures)
     assert first["time"] == "2.20"
     assert first["cause"] == "tension"
     assert second["time"] == "2.30"
     assert second["cause"] == "shear"
     assert first["forces"] == ["4.6", "1.5", "5.9"]
-    others = report.others(run, results)
+    others = report.others(run)
     for part in ("Then 1 of 8 joints that can break had failed", "of the others 0 had used more than 0.9",
                  "more than 0.40."):
         assert part in others

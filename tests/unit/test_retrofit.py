@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from timber_houses.base.errors import RunError
-from timber_houses.house import changed_house
+from timber_houses.house import BayName, changed_house
+from timber_houses.study.batch import HouseChanges
 from timber_houses.study.retrofit import candidates as measures
 from timber_houses.study.retrofit import motions, overview, race
 from timber_houses.study.retrofit import runs as rounds
@@ -29,13 +30,12 @@ def test_candidates_of_a_house():
     assert "main.brace1.EW.y0.3-4" in names and len(names) == len(set(names))
     assert [name for name in names
             if name.startswith("double")] == ["double_column_ends", "double_brace_ends", "double_brace_sides"]
-    assert found[names.index("double_column_ends")].changes == {
-        "set": "joints.column_ends.number=4"
-    }  # the shipped house has two fittings at each end
-    assert names[-1] == "snow_cleared" and found[-1].changes == {"snow": "0"}
+    assert found[names.index("double_column_ends")].changes == HouseChanges(
+        set=("joints.column_ends.number=4",))  # the shipped house has two fittings at each end
+    assert names[-1] == "snow_cleared" and found[-1].options == {"snow": 0.0}
     assert "snow_cleared" not in [candidate.name for candidate in measures.candidates("B", 0.0)]
     walls = measures.candidates("B", 0.0, ("wall",), ("EW.y0.3-4",))
-    assert [wall.changes for wall in walls] == [{"braces": f"main.wall{storey}.EW.y0.3-4.plywood"} for storey in (1, 2)]
+    assert [wall.changes.braces for wall in walls] == [(f"main.wall{storey}.EW.y0.3-4.plywood",) for storey in (1, 2)]
     assert [candidate.name for candidate in measures.candidates("B", 1.0, ("brace", ), ("EW.y0.3-4", ))] == [
         "main.brace1.EW.y0.3-4", "main.brace2.EW.y0.3-4"
     ]
@@ -70,7 +70,7 @@ structures:
 ])
 def test_bays_as_text(name, text):
     model = measures.build_house(measures.load_house("B"), check=False)
-    assert measures.bay_text(model, name) == text
+    assert measures.bay_text(model, BayName.read(name)) == text
 
 
 def test_measures_of_whole_walls():
@@ -80,12 +80,12 @@ def test_measures_of_whole_walls():
     found = {one.name: one for one in measures.candidates("B", 0.0, ("brace", "wall"), group="wall")}
     south = found["main.brace1.EW.y0"]
     assert south.text == "braces in 6 bays: main, storey 1, south wall"
-    assert south.changes["braces"].split(";") == [
+    assert list(south.changes.braces) == [
         one.name for one in measures.candidates("B", 0.0, ("brace", ), ("main.brace1.EW.y0.", ))
     ]
     assert found["main.wall2.NS.x4"].text == "plywood walls in 7 bays: main, storey 2, inner N-S wall"
     assert sum(name.startswith("main.brace") for name in found) == 2 * 6
-    bays = [name for one in found.values() for name in one.changes["braces"].split(";")]
+    bays = [name for one in found.values() for name in one.changes.braces]
     assert sorted(bays) == sorted(one.name for one in measures.candidates("B", 0.0, ("brace", "wall")))
 
 
@@ -103,14 +103,16 @@ def test_no_measure_stands_in_a_window_or_a_door():
 
 def test_the_line_of_a_bay():
     """Nodes may be fractions, so that a point in a name need not separate two parts of it."""
-    assert measures.bay_line("main.brace1.NS.x4.1-3") == "main.brace1.NS.x4"
-    assert measures.bay_line("main.wall1.NS.x4.0.1.5-3.plywood") == "main.wall1.NS.x4.0"
+    for name, line in (("main.brace1.NS.x4.1-3", "main.brace1.NS.x4"),
+                       ("main.wall1.NS.x4.0.1.5-3.plywood", "main.wall1.NS.x4.0")):
+        assert BayName.read(name).line == line and str(BayName.read(name)) == name
+    assert not any(map(BayName.read, ("main.brace1.NS.x4.1-3.plywood", "main.wall1.NS.x4.1-3", "main.column1.x4y1")))
 
 
 def test_seeds_and_target():
     found = motions.seeds(3, {"pga": 400.0})
     assert [name for name, _ in found] == ["seed1", "seed2", "seed3"]
-    assert found[1][1] == {"seed": "2", "start": "14", "end": "34", "pga": "400"}
+    assert found[1][1] == {"seed": 2, "start": 14.0, "end": 34.0, "pga": 400.0}
 
 
 def write_record(path, shaking=2.0):
@@ -126,8 +128,8 @@ def test_records_of_a_folder(tmp_path):
         write_record(tmp_path / name)
     (tmp_path / "README.md").write_text("no record")
     found = motions.records(tmp_path, {"scale": 2.0}, "m/s2")
-    assert [name for name, _ in found] == ["first", "second"] and found[0][1]["scale"] == "2"
-    start, end = (float(found[0][1][key]) for key in ("start", "end"))
+    assert [name for name, _ in found] == ["first", "second"] and found[0][1]["scale"] == 2.0
+    start, end = (found[0][1][key] for key in ("start", "end"))
     assert start == pytest.approx(6.5,
                                   abs=0.2) and end == pytest.approx(29.5, abs=0.6)  # 5 % and 95 % of 10 s of shaking
     with pytest.raises(RunError, match="no records"):
@@ -279,7 +281,7 @@ def test_double_fittings_are_twice_as_strong(tmp_path):
     path = tmp_path / "own.yaml"
     path.write_text("extends: storehouse\nname: own\njoints:\n  column_ends: {strength: 20000}\n")
     double, = measures.candidates(path, 0.0, ("fitting",), ("column_ends",))
-    data = changed_house(path, double.changes["set"].split(";"))
+    data = changed_house(path, double.changes.set)
     assert data["joints"]["column_ends"]["strength"] == 40000 and data["joints"]["column_ends"]["number"] == 4
 
 
@@ -337,10 +339,10 @@ def ranking(folder, monkeypatch, effects, failing=(), strength=math.inf):
     def write_runs(rows, _):
         lines = []
         for row in rows:
-            number = int(row.cells["seed"])
-            factor = effects.get(row.cells.get("braces"), 1.0) * (1 + 0.01 * number)
-            failed = row.cells.get("braces") in failing and row.cells["seed"] == "2"
-            fallen = (row.value("scale") or 1.0) >= strength * (1 + 0.1 * (number - 1))
+            number, brace = row.options.seed, next(iter(row.changes.braces), None)
+            factor = effects.get(brace, 1.0) * (1 + 0.01 * number)
+            failed = brace in failing and number == 2
+            fallen = row.options.factor >= strength * (1 + 0.1 * (number - 1))
             lines.append({
                 **run(0.01 * factor, fallen), "run": row.name,
                 **({"status": "failed", "error": "too large a step"} if failed else {})
@@ -350,7 +352,7 @@ def ranking(folder, monkeypatch, effects, failing=(), strength=math.inf):
     monkeypatch.setattr(rounds, "run_rows", run_rows)
     monkeypatch.setattr(rounds, "write_runs", write_runs)
     found = measures.candidates("B", 0.0, ("brace",), ("brace1.EW",))[:12]
-    return rounds.Ranking(folder, found, motions.seeds(20), {"house": "B", "snow": "0"}, ROOT / "scripts"), made
+    return rounds.Ranking(folder, found, motions.seeds(20), {"house": "B", "snow": 0.0}), made
 
 
 def test_runs_go_to_the_contenders(tmp_path, monkeypatch):
@@ -398,11 +400,11 @@ def test_the_strength_brings_half_of_the_houses_down(tmp_path, monkeypatch, stre
     lines = []
     race_of, made = ranking(tmp_path, monkeypatch, {}, strength=strength)
     text = race_of.choose_scale(lines.append)
-    scale = float(race_of.motions[0][1]["scale"])
+    scale = race_of.motions[0][1]["scale"]
     assert 2 <= sum(scale >= strength * (1 + 0.1 * k) for k in range(6)) <= 4
     assert len(lines) <= 8
     assert len(made) == 6 * len(lines)
-    assert {cells["scale"] for _, cells in race_of.motions} == {f"{scale:g}"} and f"scaled by {scale:g}" in text
+    assert {cells["scale"] for _, cells in race_of.motions} == {scale} and f"scaled by {scale:g}" in text
     race_of.run(lambda line: None)
     assert len(race_of.house.runs
                ) == 20 and len(made) < 6 * len(lines) + 20 + 4 * 12 + 16 * 3, "runs of the pilots are not repeated"
@@ -412,7 +414,7 @@ def test_the_strength_brings_half_of_the_houses_down(tmp_path, monkeypatch, stre
 def test_the_search_for_a_strength_ends(tmp_path, monkeypatch, strength, chosen):
     race_of, made = ranking(tmp_path, monkeypatch, {}, strength=strength)
     race_of.choose_scale(lambda line: None)
-    assert float(race_of.motions[0][1]["scale"]) == pytest.approx(chosen) and len(made) == 6 * 5
+    assert race_of.motions[0][1]["scale"] == pytest.approx(chosen) and len(made) == 6 * 5
 
 
 def test_a_failed_house_ends_the_ranking(tmp_path, monkeypatch):
@@ -424,7 +426,7 @@ def test_a_failed_house_ends_the_ranking(tmp_path, monkeypatch):
 
 def test_bad_measures_are_found_before_the_first_run(tmp_path):
     """A measure that cannot be built is refused with its place, without a run."""
-    wrong = measures.Candidate("wrong", "wrong", {"braces": "main.brace1.EW.y0.3-40"})
-    race_of = rounds.Ranking(tmp_path, [wrong], motions.seeds(10), {"house": "B", "snow": "0"}, ROOT / "scripts")
-    with pytest.raises(RunError, match="table.csv:12"):
+    wrong = measures.Candidate("wrong", "wrong", HouseChanges(braces=("main.brace1.EW.y0.3-40",)))
+    race_of = rounds.Ranking(tmp_path, [wrong], motions.seeds(10), {"house": "B", "snow": 0.0})
+    with pytest.raises(RunError, match="^wrong_seed1: "):
         race_of.check()

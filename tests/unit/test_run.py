@@ -179,7 +179,7 @@ def test_studies_take_the_runs_that_they_make(straight, study):
     code = f"""import pathlib, runpy
 from timber_houses.run.options import RunOptions
 of = runpy.run_path({str(SCRIPTS.parent / 'research' / study)!r} + '.py')
-print(of['Task']('run', pathlib.Path({str(straight)!r}), RunOptions(**{options!r})).summary is not None)"""
+print(of['Task'](pathlib.Path({str(straight)!r}), RunOptions(**{options!r})).summary is not None)"""
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout == "True\n"
 
 

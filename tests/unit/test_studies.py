@@ -19,7 +19,7 @@ import fragility
 
 def runs(house, scale, collapses, failed=0):
     """Runs of one point: finished ones (collapses: list of bool) and failed ones."""
-    same = {"house": house, "snow": "0", "scale": str(scale)}
+    same = {"house": house, "snow": 0.0, "scale": scale}
     done = [{**same, "status": "done", "collapsed": fell, "collapse_time_s": 9.0 if fell else None}
             for fell in collapses]
     return done + [{**same, "status": "failed", "collapsed": None, "collapse_time_s": None}] * failed

@@ -87,8 +87,8 @@ def test_every_verdict_has_its_words():
 
 def test_the_player_has_a_japanese_headline():
     """Of a house, of a lot, of a town."""
-    assert player.info(frames_sample.run(), player.peaks.Peaks())["japanese"]["title"].startswith("住宅 A：")
-    found = player.info(town(), player.peaks.Peaks())["japanese"]
+    assert player.info(frames_sample.run())["japanese"]["title"].startswith("住宅 A：")
+    found = player.info(town())["japanese"]
     assert (found["title"], found["result"]) == ("町 Harbour", "2 棟のうち無被害 1 棟、倒壊 1 棟。")
     assert japanese.title(sample_summary(lot="corner")).startswith("区画 corner（住宅 A）：")
 

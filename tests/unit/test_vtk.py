@@ -18,6 +18,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 from timber_houses.pictures import panels, vtk
 from timber_houses.recording import frames as recorded
+from timber_houses.recording.record import placed
 
 
 SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "show" / "export_vtk.py"
@@ -87,7 +88,7 @@ def test_sheets(tmp_path):
     sheet, state = (values(last.GetCellData(), name) for name in ("sheet", "state"))
     assert {*zip(sheet, state)} == {(0, 0), (1, 1), (2, 2)}
     shown = [plate for plate in panels.plates(run) if plate.torn == (plate.sheet == 2)]
-    expected = [recorded.placed(plate.vertices, run.position[-1][plate.body], run.orientation[-1][plate.body])
+    expected = [placed(plate.vertices, run.position[-1][plate.body], run.orientation[-1][plate.body])
                 for plate in shown]
     assert np.allclose(points(last), np.concatenate(expected), atol=1e-5)
     assert last.GetNumberOfPolys() == sum(len(plate.faces) for plate in shown)

@@ -3,12 +3,12 @@
 from functools import cached_property
 from pathlib import Path
 
-
 from ..base.errors import os_errors
 from ..base.files import make_folder
-from ..recording import ensemble, frames, peaks
+from ..base.table import read_rows
+from ..recording import ensemble, frames
+from ..recording.history import BREAKS, History
 from ..recording.history import NAME as HISTORY
-from ..recording.history import History
 from ..recording.summary import Summary
 from ..text.english import sentence
 
@@ -92,7 +92,7 @@ class RunResult:
     @cached_property
     def breaks(self):
         """Each spring that broke, in order: dictionaries of texts with the columns of ``breaks.csv`` as keys."""
-        return peaks.rows(self.folder / peaks.BREAKS)
+        return read_rows(self.folder / BREAKS)
 
     @cached_property
     def frames(self):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The run scripts: `main`, `main_house` and `main_town` turn the command line into a run in this process, or into an
-ensemble of processes of the same script.
+ensemble of processes; `main_requested` does a run of such processes.
 
 With YADE's `-x`, or without a terminal, the run is completed and its results are written. Otherwise it starts in the
 background, and the user has the prompt. Most modules are imported inside `_launch`, so that Ctrl-C during their import
@@ -8,7 +8,6 @@ ends in a line, too.
 """
 import signal
 import sys
-from pathlib import Path
 
 import timber_houses as th  # noqa: F401  (this and yt for the scripts)
 import yade_timber as yt  # noqa: F401
@@ -41,9 +40,17 @@ def main_town(argv=None):
     return _launch(lambda cli, arguments: cli.read_town(arguments), argv)
 
 
-def _launch(read, argv):
+def main_requested(folder):
+    """Complete the run that a study requests in a folder; a fault of it is noted there."""
+    from ..run import request_file
+    from ..study import driver
+
+    _launch(lambda *_: request_file.read(folder).check(), None, lambda fault: driver.note_fault(folder, fault))
+
+
+def _launch(read, argv, note=lambda fault: None):
     """Run what `read(cli, argv)`, RunOptions, asks for; returns the Run or TownRun, of an ensemble the RunResult of the
-    run that it shows.
+    run that it shows. note: called with an InputError that ends it
 
     Bad input, a failed run and a signal end the process with a line on standard error: status 1, 1 and 128 + the
     signal's number.
@@ -64,8 +71,9 @@ def _launch(read, argv):
                 ports.close_servers()
             options = read(cli, argv)
             scenario = planned(options)
-        return _run(session, ports.has_prompt(), Path(argv[0]), scenario, options)
+        return _run(session, ports.has_prompt(), scenario, options)
     except InputError as problem:
+        note(problem)
         _leave(f"error: {problem}", 1)
     except Interrupted as stop:
         remedy = "continue with --resume" if options.checkpoint > 0 else "nothing was saved (--checkpoint 0)"
@@ -76,15 +84,15 @@ def _launch(read, argv):
         _leave(f"stopped by SIGINT{remedy}", 128 + signal.SIGINT)
 
 
-def _run(session, prompt, script, scenario, options):
+def _run(session, prompt, scenario, options):
     """Run to the end, or start a live run. Raises InputError, Interrupted."""
     try:
         if options.ensemble is not None:
-            return _ensemble(session, script, scenario, options)
+            return _ensemble(session, scenario, options)
         if options.report:
             from ..study import other_walls
 
-            scenario.other_walls = other_walls.run(script, options)
+            scenario.other_walls = other_walls.run(options)
     except KeyboardInterrupt:
         _leave("stopped; the same command continues", 128 + signal.SIGINT)
     if options.town or not prompt:
@@ -95,7 +103,7 @@ def _run(session, prompt, script, scenario, options):
     return started
 
 
-def _ensemble(session, script, scenario, options):
+def _ensemble(session, scenario, options):
     """Run an ensemble; returns the RunResult of the run that it shows. Raises InputError."""
     from ..run import runner
     from ..study import ensemble
@@ -104,7 +112,7 @@ def _ensemble(session, script, scenario, options):
     scenario.build_model()  # a fault of the house is reported once
     with session.reserved(options):
         runner.clear(options, *runner.RECORDED, *runner.STATE)
-        ensemble.complete(script, options)
+        ensemble.complete(options)
     return RunResult(options.folder)
 
 

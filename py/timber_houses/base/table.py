@@ -2,6 +2,7 @@
 """CSV files."""
 import csv
 import io
+from itertools import zip_longest
 
 from .errors import RunError
 from .record_file import MAX_TABLE, read_record
@@ -15,6 +16,12 @@ def read_csv(path):
     except (ValueError, csv.Error) as problem:
         raise RunError(f"{path}: cannot be read as a table: {problem}") from None
     return header, rows
+
+
+def read_rows(path):
+    """[{column: text}] of a CSV file. Raises RunError."""
+    header, lines = read_csv(path)
+    return [dict(zip_longest(header, line)) for line in lines if line]
 
 
 def csv_text(header, rows):

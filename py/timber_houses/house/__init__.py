@@ -4,6 +4,7 @@
     model = build_house(load_house("C2"), snow_depth=1.0)
     model.elements, model.joints, model.counts()
 """
+from .bay_name import BayName
 from .bays import free_bays, free_wall_bays
 from .build import build_house
 from .check import check_house, overlaps
@@ -11,11 +12,11 @@ from .description import Description, load_house, shipped_houses
 from .diagnosis import comparison, diagnose
 from .errors import HouseError
 from .model import Element, HouseModel, JointSpec
-from .overlay import brace_parts, changed_house, wall_parts
+from .overlay import changed_house
 from .town import Lot, Town, load_town
 from .wall_types import LEVELS, has_rated_walls
 from .weight import weigh
 
-__all__ = ["Description", "Element", "HouseError", "HouseModel", "JointSpec", "LEVELS", "Lot", "Town", "brace_parts",
+__all__ = ["BayName", "Description", "Element", "HouseError", "HouseModel", "JointSpec", "LEVELS", "Lot", "Town",
            "build_house", "changed_house", "check_house", "comparison", "diagnose", "free_bays", "free_wall_bays",
-           "has_rated_walls", "load_house", "load_town", "overlaps", "shipped_houses", "wall_parts", "weigh"]
+           "has_rated_walls", "load_house", "load_town", "overlaps", "shipped_houses", "weigh"]

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Bays that can take a brace or a wall, between neighbouring columns on a line of beams; for `changed_house`."""
-from .members import DIRECTION, column_plan, nodes_on_line
-from .structure import ACROSS, Structure, in_storey
+from .bay_name import BayName
+from .members import column_plan, nodes_on_line
+from .structure import Structure, in_storey
 
 
 def free_bays(description):
@@ -12,10 +13,10 @@ def free_bays(description):
     names = []
     for structure, storey in _storeys(description):
         taken = _braced(structure, storey) | _walled(structure, storey, only_open=True)
-        for line, (*place, low, high) in _bays(structure, storey):
-            if (*place, low, high) not in taken:
+        for line, (along, at, low, high) in _bays(structure, storey):
+            if (along, at, low, high) not in taken:
                 foot, head = (low, high) if low + high <= line["from"] + line["to"] else (high, low)
-                names.append(_name(structure, "brace", storey, (*place, foot, head)))
+                names.append(str(BayName(structure.name, storey, along, at, foot, head)))
     return names
 
 
@@ -24,8 +25,8 @@ def free_wall_bays(description, kind):
     names = []
     for structure, storey in _storeys(description):
         walled = _walled(structure, storey)
-        names += [f"{_name(structure, 'wall', storey, bay)}.{kind}" for _, bay in _bays(structure, storey)
-                  if bay not in walled]
+        names += [str(BayName(structure.name, storey, along, at, low, high, kind))
+                  for _, (along, at, low, high) in _bays(structure, storey) if (along, at, low, high) not in walled]
     return names
 
 
@@ -46,13 +47,6 @@ def _bays(structure, storey):
         for at in line["at"]:
             nodes = [node for node in nodes_on_line(plan, along, at) if line["from"] <= node <= line["to"]]
             yield from ((line, (along, at, low, high)) for low, high in zip(nodes, nodes[1:]))
-
-
-def _name(structure, kind, storey, bay):
-    """Name of a bay; a whole node before a fraction has its decimal: x4.0.1.5-3, as x4.1.5-3 is bay 5-3 of line 4.1."""
-    along, at, start, end = bay
-    line = f"{at:.1f}" if at == int(at) and start != int(start) else f"{at:g}"
-    return f"{structure.name}.{kind}{storey}.{DIRECTION[along]}.{ACROSS[along]}{line}.{start:g}-{end:g}"
 
 
 def _braced(structure, storey):

@@ -3,6 +3,7 @@
 import re
 
 from ..base.input_file import shown
+from .bay_name import BayName
 from .description import checked, house_path
 from .errors import HouseError
 from .limits import MAX_DEPTH
@@ -11,10 +12,6 @@ from .parser import Items, Table, parse_value
 from .schema import NAME
 
 _STEP = re.compile(rf"({NAME})((?:\[\d{{1,6}}\])*)")
-_NODE = r"(\d{1,4}(?:\.\d{1,6})?)"
-_PLACE = rf"(\d{{1,2}})\.(EW\.y|NS\.x){_NODE}\.{_NODE}-{_NODE}"
-_BRACE = re.compile(rf"({NAME})\.brace{_PLACE}")
-_WALL = re.compile(rf"({NAME})\.wall{_PLACE}\.({NAME})")
 MIN_FACTOR, MAX_FACTOR = 1e-3, 1e3
 """Range of the factor on the joints' strength."""
 
@@ -48,7 +45,7 @@ def changed_house(name_or_path, settings=(), braces=(), strength=1.0, where="{}"
         _set(data, text, where("set"))
     checked(data, path)
     for name in braces:
-        (_add_wall if _WALL.fullmatch(name) else _add_brace)(data, name, where("braces"))
+        _fill(data, name, where("braces"))
     checked(data, path)
     _strengthen(data, strength, where("strength"))
     return plain(data)
@@ -115,38 +112,21 @@ def _has_entry(node, step, key, where):
 # --- braces, walls and joints -----------------------------------------------------------------------------------------
 
 
-def brace_parts(name, where="brace"):
-    """'main.brace1.EW.y0.3-4' -> ('main', storey 1, along 'x', at 0.0, foot 3.0, head 4.0); raises HouseError."""
-    match = _BRACE.fullmatch(name)
-    if match is None:
-        raise HouseError(f"{where}: {shown(name)}: write a brace like main.brace1.EW.y0.3-4 or a wall like"
+def _fill(data, text, where):
+    """Add the brace or wall of that name."""
+    bay = BayName.read(text)
+    if bay is None:
+        raise HouseError(f"{where}: {shown(text)}: write a brace like main.brace1.EW.y0.3-4 or a wall like"
                          " main.wall2.NS.x8.6-7.plywood")
-    return _parts(match)
-
-
-def wall_parts(name):
-    """'main.wall1.EW.y0.3-4.plywood' -> ('main', 1, 'x', 0.0, from 3.0, to 4.0, 'plywood'); None for another name."""
-    match = _WALL.fullmatch(name)
-    return match and (*_parts(match), match.groups()[-1])
-
-
-def _parts(match):
-    structure, storey, wall, *nodes = match.groups()
-    return structure, int(storey), "x" if wall == "EW.y" else "y", *map(float, nodes[:3])
-
-
-def _add_brace(data, name, where):
-    structure, storey, along, at, foot, head = brace_parts(name, where)
-    runs = Items([Items([foot, head], where, [where] * 2)], where, [where])
-    table = _structure(data, structure, name, where).setdefault("braces", Table(where=where))
-    _append(table.setdefault("lines", Items((), where)), {"along": along, "at": at, "storeys": storey, "runs": runs},
-            where)
-
-
-def _add_wall(data, name, where):
-    structure, storey, along, at, first, last, kind = wall_parts(name)
-    walls = _structure(data, structure, name, where).setdefault("walls", Items((), where))
-    _append(walls, {"along": along, "at": at, "storeys": storey, "from": first, "to": last, "type": kind}, where)
+    table, place = _structure(data, bay.structure, text, where), {"along": bay.along, "at": bay.at,
+                                                                  "storeys": bay.storey}
+    if bay.type:
+        _append(table.setdefault("walls", Items((), where)),
+                {**place, "from": bay.start, "to": bay.end, "type": bay.type}, where)
+    else:
+        runs = Items([Items([bay.start, bay.end], where, [where] * 2)], where, [where])
+        braces = table.setdefault("braces", Table(where=where))
+        _append(braces.setdefault("lines", Items((), where)), {**place, "runs": runs}, where)
 
 
 def _structure(data, structure, name, where):

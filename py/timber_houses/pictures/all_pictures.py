@@ -5,7 +5,7 @@ from functools import partial
 
 from ..base.notes import noted
 from ..recording import ensemble, frames
-from ..recording.summary import Summary, TownSummary
+from ..recording.summary import TownSummary
 from . import MAP
 
 END, CURVES, QUANTITIES, BANDS, PLAYER = "end_state", "history", "quantities", "ensemble", "player.html"
@@ -54,14 +54,14 @@ def draw(folder, views, page):
 
 
 def _pages(recorded, folder):
-    """(name, function that draws the figure) of each page. folder: of the run's tables"""
+    """(name, function that draws the figure) of each page. folder: of the run"""
     from . import bands, curves, quantities, sheets, views
 
     for view in views.VIEWS:
         yield view.name, partial(sheets.sheet, recorded, view, sheets.PRINT)
     if recorded.history and recorded.history.samples:
         yield CURVES, partial(curves.page, recorded, curves.DPI)
-        if isinstance(recorded.summary, Summary) and (folder / quantities.JOINTS).exists():
-            yield QUANTITIES, partial(quantities.page, quantities.read(folder), quantities.DPI)
+        if recorded.peaks is not None:
+            yield QUANTITIES, partial(quantities.page, recorded, quantities.DPI)
         if ensemble.has_runs(folder):
             yield BANDS, partial(bands.page, recorded, ensemble.histories(folder), bands.DPI)

@@ -9,7 +9,7 @@ from functools import cache
 
 import numpy as np
 
-from ..recording.frames import rotated
+from ..recording.record import rotated
 from ..recording.walls import of_walls, sheet_states
 
 THICKNESS, LAYER = 0.02, 0.03

@@ -10,7 +10,6 @@ page permits its own script and style, by their hashes, and nothing else.
 """
 import base64
 import hashlib
-from pathlib import Path
 
 import numpy as np
 from matplotlib.colors import to_hex
@@ -20,8 +19,8 @@ from ..base import colors
 from ..base.atomic_write import write_text
 from ..base.errors import RunError
 from ..base.html import DATA, html
-from ..recording import frames, peaks
 from ..recording.events import Event, LevelPassed, ShakingBegins, StrongestShaking
+from ..recording.record import rotated
 from ..recording.summary import Summary, collapse_time
 from ..recording.walls import wall_sheets
 from ..text import english, japanese
@@ -39,7 +38,7 @@ ORIENTATION_STEP = 1 / 32767
 
 
 def make(runs, path):
-    """Write the page; returns its path. runs: one or two (file, Frames); the tables beside the file give peaks.
+    """Write the page; returns its path. runs: one or two (file, Frames).
 
     Raises RunError when a run cannot be shown, OSError when the page cannot be written.
     """
@@ -76,8 +75,7 @@ def packed(source, run):
     if not len(run.time):
         raise RunError(f"{source}: it has no frames")
     try:
-        own = run.summary and Path(source).name == frames.NAME  # then the tables of the run are beside it
-        return pack(info(run, peaks.read(Path(source).parent) if own else peaks.Peaks()), arrays(run))
+        return pack(info(run), arrays(run))
     except ValueError as problem:
         raise RunError(f"{source}: {problem}") from None
 
@@ -85,9 +83,9 @@ def packed(source, run):
 # --- texts ------------------------------------------------------------------------------------------------------------
 
 
-def info(run, largest):
-    """Texts of the page, and the description of its arrays. largest: Peaks of the run"""
-    e, j = run.elements, run.joints
+def info(run):
+    """Texts of the page, and the description of its arrays."""
+    e, j, lifted = run.elements, run.joints, uplifts(run)
     return {
         "title": plain(run.title),
         "result": (plain(english.sentence(run.summary)) if run.summary
@@ -96,15 +94,15 @@ def info(run, largest):
                       "origin": plain(provenance(run, japanese))} if run.summary else None),
         "origin": plain(provenance(run)),
         "elements": [{"name": plain(name), "kind": plain(kind), "group": plain(group), "storey": int(storey),
-                      **uplift(largest, name)}
-                     for name, kind, group, storey in zip(e.name, e.kind, e.group, e.storey)],
+                      **({"uplift": lifted[k]} if k in lifted else {})}
+                     for k, (name, kind, group, storey) in enumerate(zip(e.name, e.kind, e.group, e.storey))],
         "joints": len(j.name),
         "sheets": wall_sheets(j),
         "sheet_colors": {state: to_hex(color) for state, color in colors.SHEETS.items() if len(run.sheets.type)},
         "plates": [{"body": plate.body, "sheet": plate.sheet, "torn": plate.torn} for plate in plates(run)],
         "joint_list": [
-            {"kind": plain(kind), "place": plain(english.joint_place(kind, storey, side)), **forces(largest, name)}
-            for name, kind, storey, side in zip(j.name, j.kind, j.storey, j.side)
+            {"kind": plain(kind), "place": plain(english.joint_place(kind, storey, side)), **largest}
+            for kind, storey, side, largest in zip(j.kind, j.storey, j.side, forces(run))
         ],
         "feet": feet(run),
         "breaks": breaks(run),
@@ -120,20 +118,25 @@ def info(run, largest):
     }
 
 
-def forces(largest, joint):
-    """{'pull', 'shear'}: largest forces of a joint [N]; empty when they are not known."""
-    return {key: round(value, 1) for key, value in zip(("pull", "shear"), largest.forces.get(joint, ()))}
+def forces(run):
+    """[{'pull', 'shear'}]: largest forces of each joint [N]; empty when broken at the start or not known."""
+    if run.peaks is None:
+        return [{}] * len(run.joints.name)
+    return [{} if damaged else {"pull": round(float(pull), 1), "shear": round(float(shear), 1)}
+            for damaged, pull, shear in zip(run.joints.damaged, run.peaks["pull"], run.peaks["shear"])]
 
 
-def uplift(largest, element):
-    """{'uplift'}: largest uplift of a column's foot [m]; empty for other elements, and when it is not known."""
-    return {"uplift": round(largest.uplift[element], 6)} if element in largest.uplift else {}
+def uplifts(run):
+    """{element: largest uplift of its foot [m]} of the columns that stand; empty when it is not known."""
+    table = run.columns or {"element": (), "uplift": (), "state": ()}
+    return {int(element): round(float(uplift), 6)
+            for element, uplift, state in zip(table["element"], table["uplift"], table["state"]) if state == "standing"}
 
 
 def feet(run):
     """Numbers of the joints at the feet of columns: the first element is a column, with its centroid above."""
     e, j = run.elements, run.joints
-    below = frames.rotated(np.asarray(e.orientation)[j.a], j.anchor)[:, 2] < 0
+    below = rotated(np.asarray(e.orientation)[j.a], j.anchor)[:, 2] < 0
     return [k for k, kind in enumerate(j.kind)
             if below[k] and kind.startswith("column_") and e.kind[j.a[k]] == "column"]
 

@@ -51,23 +51,24 @@ LIGHT = 1.5
 def write(folder):
     """Write report.html, and report.pdf if there is a browser, into a run's folder; returns the paths. RunError."""
     folder = Path(folder)
-    results = quantities.read(folder)
-    write_text(folder / PAGE, page(recorded(folder), results))
+    write_text(folder / PAGE, page(recorded(folder)))
     return [folder / PAGE, *print_pdf(folder / PAGE, folder / PDF)]
 
 
 def recorded(folder):
     """Frames of the ended run in a folder. Raises RunError."""
     path = folder / recording.NAME
-    frames = recording.load(path, missing="the report needs recorded frames: run without --no-frames")
+    frames = recording.load(path, missing="the report needs the frames of a finished run without --no-frames")
     if frames.summary is None:
         raise RunError(f"{path}: of a run that has not ended; continue it with --resume")
+    if frames.peaks is None:
+        raise RunError(f"{path}: of a town, which has reports of its lots, or of another version")
     return frames
 
 
-def page(frames, results):
-    """Text of the page. results: quantities.Results"""
-    summary = results.summary
+def page(frames):
+    """Text of the page of an ended run."""
+    summary = frames.summary
     failures = first_failures(frames) if summary.collapsed else []
     return html(
         "report.html",
@@ -84,10 +85,10 @@ def page(frames, results):
         storeys=storeys(summary),
         shots=picture(*report_pictures.shots(frames)),
         lines=lines(summary),
-        failures=failed_joints(frames, results, failures),
-        others=others(frames, results) if failures else None,
-        joints=joints(results),
-        at_strength=at_strength(results),
+        failures=failed_joints(frames, failures),
+        others=others(frames) if failures else None,
+        joints=joints(frames),
+        at_strength=at_strength(frames),
         limits="; ".join(f"{limit.text} ({limit.source})" for limit in (*verdict.LIMITS, verdict.LOSS)),
         caveats=caveats(summary),
         versions=versions(summary),
@@ -172,52 +173,50 @@ def motion(frames, summary):
     return f"{summary.record.source}{scale}: PGA {peaks} gal, PGV {pgv(applied):.0f} cm/s{stated}."
 
 
-def joints(results):
-    units = {"utilisation [-]": (1, 2), "pull [N]": (1e-3, 1), "shear [N]": (1e-3, 1), "opening [m]": (1e3, 0)}
-    return [{"joint": joint_name(row["joint"]), "state": row["state"],
-             "numbers": [f"{factor * float(row[column]):.{digits}f}" for column, (factor, digits) in units.items()]}
-            for row in quantities.nearest_to_failure(results.joints, JOINTS_SHOWN)]
+def joints(frames):
+    """Rows of the table of the joints nearest to failure."""
+    units = {"load": (1, 2), "pull": (1e-3, 1), "shear": (1e-3, 1), "opening": (1e3, 0)}
+    states = frames.joint_states(-1)
+    return [{"joint": joint_name(frames.joints.name[k]), "state": states[k],
+             "numbers": [f"{factor * frames.peaks[name][k]:.{digits}f}" for name, (factor, digits) in units.items()]}
+            for k in quantities.nearest_to_failure(frames, JOINTS_SHOWN)]
 
 
-def at_strength(results):
+def at_strength(frames):
     """'27 of 412 joints have reached their strength: 3 broken, 20 partly, 4 whole.'; walls included."""
-    reached = [row["state"] for row in results.joints if float(row["utilisation [-]"]) >= quantities.FULL]
-    states = ", ".join(f"{reached.count(state)} {state}" for state in dict.fromkeys(reached))
-    return (f"{len(reached)} of {len(results.joints)} joints have reached their strength"
-            f"{f': {states}' if reached else ''}.")
+    states, load = frames.joint_states(-1), frames.peaks["load"]
+    reached = [str(states[k]) for k in quantities.by_load(frames) if load[k] >= quantities.FULL]
+    counts = ", ".join(f"{reached.count(state)} {state}" for state in dict.fromkeys(reached))
+    return f"{len(reached)} of {len(load)} joints have reached their strength{f': {counts}' if reached else ''}."
 
 
-def failed_joints(frames, results, failures):
+def failed_joints(frames, failures):
     """Rows of the table of the first failures of a house that has collapsed; forces are the largest of their joints."""
-    by_name, joint = {row["joint"]: row for row in results.joints}, frames.joints
-    rows = []
+    joint, rows = frames.joints, []
     for failure in failures:
-        number, more = failure.joints[0], len(failure.joints) - 1
-        mine = [by_name[joint.name[each]] for each in failure.joints]
+        number, more, mine = failure.joints[0], len(failure.joints) - 1, list(failure.joints)
         bay, material = place(frames, number)
         bay = bay.partition(".")[2] if joint.storey[number].isdigit() else bay  # of the main structure
         kind = "" if joint.kind[number] == WALL_COLUMN else f"{joint.kind[number].replace('_', '-')}, "
         rows.append({
             "time": f"{failure.time:.2f}",
-            "joint": ", ".join(joint_name(row["joint"]) for row in mine),
+            "joint": ", ".join(joint_name(joint.name[each]) for each in mine),
             "place": f"{kind}{bay}, {material}{f' and {more} more' * (more > 0)}",
             "cause": failure.cause,
             "drift": "" if failure.drift is None else directed(failure.drift, failure.direction),
-            "forces": [f"{max(float(row[column]) for row in mine) / 1e3:.1f}"
-                       for column in ("pull [N]", "shear [N]", "strength [N]")],
+            "forces": [f"{values[mine].max() / 1e3:.1f}"
+                       for values in (frames.peaks["pull"], frames.peaks["shear"], joint.strength)],
         })
     return rows
 
 
-def others(frames, results):
+def others(frames):
     """How far the joints were when the fall of a house that has collapsed began."""
-    fall = results.summary.quantities.until_s
+    fall = frames.summary.quantities.until_s
     broken = frames.broken[max(0, int(np.searchsorted(frames.time, fall)) - 1)] > 0
-    names = {name for name, fails in zip(frames.joints.name, broken) if fails}
-    rows = [row for row in results.joints if np.isfinite(float(row["strength [N]"])) and row["state"] != "before"]
-    loads = np.array([float(row["utilisation [-]"]) for row in rows if row["joint"] not in names])
-    failed = len(rows) - len(loads)
-    losses = f"{failed} of {len(rows)} joints that can break had failed, those of walls included"
+    able = np.isfinite(frames.joints.strength) & ~np.asarray(frames.joints.damaged, bool)
+    loads = frames.peaks["load"][able & ~broken]
+    losses = f"{able.sum() - len(loads)} of {able.sum()} joints that can break had failed, those of walls included"
     about = f"Pull and shear: largest before {fall:.2f} s, when the fall began. Then {losses}"
     if not len(loads):
         return f"{about}; of the others none is left."

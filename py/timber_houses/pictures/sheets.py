@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..base import colors
-from ..recording.frames import placed, rotated
+from ..recording.record import placed, rotated
 from ..text.english import sentence
 from . import key_times
 from .figures import (A4, MARGIN, POINT_LETTERS, add_panel, drawable, fitting_size, footer, heading, heading_height,

@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.colors import to_rgb
 
 from ..base import colors
-from ..recording.frames import rotated
+from ..recording.record import rotated
 from .panels import mark_anchors, mark_states, plates, states
 from .renderer import Bodies, Canvas, Topology, context, program, put
 

@@ -19,7 +19,7 @@ from yade_timber.log import starts
 from ..base.atomic_write import write_bytes, write_text
 from ..base.errors import RunError
 from ..base.files import make_folder
-from ..recording.frames import placed, rotated
+from ..recording.record import placed, rotated
 from .panels import plates, states
 
 try:

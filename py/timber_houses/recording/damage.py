@@ -12,7 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
-from .frames import Elements, Joints, placed, rotated
+from .record import Elements, Joints, placed, rotated
 from .summary_parts import Broken, Columns, JointCounts
 from .verdict import FALL, FALLEN_ANGLE, Structure
 from .walls import of_walls, sheet_states

@@ -26,6 +26,10 @@ attributes   format, title (house and loads), scenario, model, version (of the p
 /motion      only with an earthquake: attributes dt [s], start [s]; acceleration (M, 3) [m/s2] as applied, displacement
              (M, 3) [m] of the ground
 /history     of an ended run: columns (names with units), rows; the table of history.csv
+/storeys     of an ended run of a house: likewise, the table of storeys.csv
+/joint_peaks of an ended run of a house: load [-], pull, shear [N], opening [m] (J,): largest, before its fall if any
+/columns     of an ended run of a house: element; uplift of its foot [m]; state ('standing', 'fallen', 'loose'); the
+             largest uplift first
 /breaks      of an ended run: time [s], joint, spring, cause, force [N]; one entry for each spring that broke
 
 Frames are recorded FRAMES_PER_SECOND times per simulated second from t = 0, and at the last step. Until the run has
@@ -34,8 +38,6 @@ reads, too. It also reads the log of a user's scene (`yt.record`).
 """
 import io
 import json
-from dataclasses import dataclass, field
-from functools import cached_property
 from pathlib import Path
 
 import h5py
@@ -48,7 +50,9 @@ from ..base.json_types import encode
 from ..base.time_step import rest_stride
 from . import append_log, frame_log, scene_log
 from .history import History
-from .summary import ANEW, Summary, parse
+from .quantities import Storeys
+from .record import Contacts, Elements, Frames, Joints, Motion, Sheets
+from .summary import ANEW, parse
 from .table_file import FAULTS, Group, opened
 
 NAME = "frames.h5"
@@ -81,6 +85,9 @@ LAYOUT = {
     "motion": Group({"acceleration": ("number", "M", 3), "displacement": ("number", "M", 3)},
                     {"dt": "number", "start": "number"}),
     "history": Group({"columns": ("text", "columns"), "rows": ("number", "samples", "columns")}),
+    "storeys": Group({"columns": ("text", "quantities"), "rows": ("number", "intervals", "quantities")}),
+    "joint_peaks": Group(dict.fromkeys(("load", "pull", "shear", "opening"), ("number", "J"))),
+    "columns": Group({"element": ("whole", "O"), "uplift": ("number", "O"), "state": ("text", "O")}),
     "breaks": Group({"time": ("number", "B"), "joint": ("whole", "B"), "spring": ("whole", "B"), "cause": ("text", "B"),
                      "force": ("number", "B")}),
 }
@@ -91,185 +98,6 @@ def steps_between(dt):
     """Steps of dt [s] between two frames: whole strides, so that a step with a frame is computed at rest, too."""
     stride = rest_stride(dt)
     return stride * max(1, round(1 / (FRAMES_PER_SECOND * stride * dt)))
-
-
-class _ShortRepr:
-    """Prints sizes instead of contents."""
-
-    def __repr__(self):
-        sizes = (f"{name}={f'<{len(value)}>' if hasattr(value, '__len__') else value}"
-                 for name, value in vars(self).items())
-        return f"{type(self).__name__}({', '.join(sizes)})"
-
-
-@dataclass(repr=False)
-class Elements(_ShortRepr):
-    """Names and shapes, as in /elements; vertices and faces: a list per element."""
-
-    name: list
-    kind: list
-    group: list
-    material: list
-    storey: np.ndarray
-    fixed: np.ndarray
-    position: np.ndarray
-    orientation: np.ndarray
-    vertices: list
-    faces: list
-
-
-@dataclass(repr=False)
-class Joints(_ShortRepr):
-    """As in /joints."""
-
-    name: list
-    kind: list
-    storey: list
-    side: list
-    a: np.ndarray
-    b: np.ndarray
-    anchor: np.ndarray
-    springs: np.ndarray
-    damaged: np.ndarray
-    strength: np.ndarray
-    sheet: np.ndarray = None  # type: ignore[assignment]  # of no wall
-
-    def __post_init__(self):
-        self.sheet = np.full(len(self.name), -1) if self.sheet is None else self.sheet
-
-
-def _no_elements():
-    return np.empty(0, int)
-
-
-@dataclass(repr=False)
-class Sheets(_ShortRepr):
-    """As in /sheets."""
-
-    type: list = field(default_factory=list)
-    opening: list = field(default_factory=list)
-    low: np.ndarray = field(default_factory=_no_elements)
-    high: np.ndarray = field(default_factory=_no_elements)
-
-
-@dataclass(repr=False)
-class Contacts(_ShortRepr):
-    """As in /contacts; pair, position, force: a list with an array per time."""
-
-    time: list = field(default_factory=list)
-    pair: list = field(default_factory=list)
-    position: list = field(default_factory=list)
-    force: list = field(default_factory=list)
-
-
-@dataclass(repr=False)
-class Motion(_ShortRepr):
-    """As in /motion."""
-
-    dt: float
-    start: float
-    acceleration: np.ndarray
-    displacement: np.ndarray
-
-    @property
-    def time(self):
-        return self.start + self.dt * np.arange(len(self.acceleration))
-
-    def first(self, acceleration):
-        """Time at which the ground first has an acceleration [m/s2] in any direction, or None. [s]"""
-        reached = np.flatnonzero(np.abs(self.acceleration).max(1) >= acceleration)
-        return float(self.time[reached[0]]) if len(reached) else None
-
-    def last(self, acceleration):
-        """Time from which on the ground has less than an acceleration [m/s2] in all directions. [s]"""
-        reached = np.flatnonzero(np.abs(self.acceleration).max(1) >= acceleration)
-        return float(self.time[reached[-1]] + self.dt) if len(reached) else self.start
-
-
-@dataclass(repr=False)
-class Frames:
-    """The file's content. time, position, orientation, load, broken: arrays, or lists during a run.
-
-    scenario: '' of a user's scene; summary: Summary, of a town TownSummary; history: History; breaks: dictionary of
-    lists; None before the run's end.
-    """
-
-    title: str
-    scenario: str
-    model: str
-    version: str
-    elements: Elements
-    joints: Joints
-    time: list = field(default_factory=list)
-    position: list = field(default_factory=list)
-    orientation: list = field(default_factory=list)
-    load: list = field(default_factory=list)
-    broken: list = field(default_factory=list)
-    contacts: Contacts = field(default_factory=Contacts)
-    motion: Motion | None = None
-    summary: Summary | None = None
-    history: History | None = None
-    breaks: dict | None = None
-    run: str = ""
-    sheets: Sheets = field(default_factory=Sheets)
-
-    def __repr__(self):
-        until = f"up to {self.time[-1]:g} s" if len(self.time) else "empty"
-        sizes = f"{len(self.elements.name)} elements, {len(self.joints.name)} joints, {len(self.time)} frames"
-        return f"<Frames: {self.title}, {sizes}, {until}, {'ended' if self.summary else 'not ended'}>"
-
-    def corners(self, frame, element):
-        """(n, 3) corners of an element in a frame, world frame [m]."""
-        return placed(self.elements.vertices[element], self.position[frame][element], self.orientation[frame][element])
-
-    def corners_at_start(self, element):
-        """(n, 3) corners of an element before the first step, world frame [m]."""
-        e = self.elements
-        return placed(e.vertices[element], e.position[element], e.orientation[element])
-
-    def all_corners(self, frame=None):
-        """List of the (n, 3) corners of every element in a frame, or (None) before the first step, world frame [m]."""
-        e = self.elements
-        position, orientation = ((e.position, e.orientation) if frame is None
-                                 else (self.position[frame], self.orientation[frame]))
-        counts = [len(vertices) for vertices in e.vertices]
-        body = np.repeat(np.arange(len(counts)), counts)
-        corners = np.asarray(position, float)[body] + rotated(np.asarray(orientation)[body], np.concatenate(e.vertices))
-        return np.split(corners, np.cumsum(counts)[:-1])
-
-    def joint_places(self, frame):
-        """(J, 3) positions of the joints on their first elements, world frame [m]."""
-        a = self.joints.a
-        return np.asarray(self.position[frame])[a] + rotated(np.asarray(self.orientation[frame])[a], self.joints.anchor)
-
-    def joint_states(self, frame):
-        """'whole', 'partly', 'broken' or 'before' (the start), for each joint. frame: a number, or a slice"""
-        j = self.joints
-        state = np.where(np.asarray(self.broken[frame]) == 0, "whole",
-                         np.where(self.broken[frame] >= j.springs, "broken", "partly"))
-        return np.where(j.damaged, "before", state)
-
-    def at(self, time):
-        """Number of the frame nearest to a time [s]."""
-        return int(np.argmin(np.abs(np.asarray(self.time) - time)))
-
-    @cached_property
-    def shown(self):
-        """Numbers of the elements that pictures show: all but the ground."""
-        return [k for k, kind in enumerate(self.elements.kind) if kind != "ground"]
-
-
-def rotated(q, v):
-    """Vectors (..., 3) rotated by unit quaternions (..., 4) w, x, y, z."""
-    q, v = np.asarray(q, float), np.asarray(v, float)
-    u = q[..., 1:]
-    t = 2 * np.cross(u, v)
-    return v + q[..., :1] * t + np.cross(u, t)
-
-
-def placed(vertices, position, orientation):
-    """(n, 3) vertices of a body frame in the world frame."""
-    return np.asarray(position, float) + rotated(np.asarray(orientation)[None], vertices)
 
 
 # --- writing ----------------------------------------------------------------------------------------------------------
@@ -294,10 +122,12 @@ def save(path, frames):
             group = file.create_group("motion")
             group.attrs.update(dt=frames.motion.dt, start=frames.motion.start)
             _save_group(group, {"acceleration": frames.motion.acceleration, "displacement": frames.motion.displacement})
-        if frames.history is not None:
-            _save_group(file.create_group("history"), frames.history._asdict())
-        if frames.breaks is not None:
-            _save_group(file.create_group("breaks"), frames.breaks)
+        results = {"history": frames.history and frames.history._asdict(), "breaks": frames.breaks,
+                   "storeys": frames.storeys and frames.storeys._asdict(), "joint_peaks": frames.peaks,
+                   "columns": frames.columns}
+        for name, table in results.items():
+            if table is not None:
+                _save_group(file.create_group(name), table)
     write_bytes(path, memory.getbuffer())
 
 
@@ -357,6 +187,7 @@ def _check_numbers(frames):
             raise ValueError(f"elements/{name}: of {len(getattr(e, name))} elements instead of {n}")
     numbers = [("joints/a", j.a, n), ("joints/b", j.b, n), ("joints/sheet", j.sheet + 1, len(frames.sheets.type) + 1),
                ("sheets/low", frames.sheets.low, n), ("sheets/high", frames.sheets.high, n),
+               ("columns/element", (frames.columns or {}).get("element", ()), n),
                *(("contacts/pair", pair, n) for pair in frames.contacts.pair)]
     numbers += [("elements/faces", face, len(vertices)) for faces, vertices in zip(e.faces, e.vertices)
                 for face in faces]
@@ -373,6 +204,8 @@ def _check_finite(frames):
     removed = np.all([np.isnan(part).all(2) for part in parts], axis=0)
     tables = {"frames/position, orientation": finite | removed, "frames/time": np.isfinite(frames.time)}
     tables |= {f"elements/{name}": np.isfinite(getattr(frames.elements, name)) for name in ("position", "orientation")}
+    tables |= {f"joint_peaks/{name}": np.isfinite(values) for name, values in (frames.peaks or {}).items()}
+    tables["columns/uplift"] = np.isfinite((frames.columns or {}).get("uplift", ()))
     for name, valid in tables.items():
         if not valid.all():
             raise ValueError(f"{name}: a number that is not finite")
@@ -391,6 +224,9 @@ def _load(file):
         loaded.summary = parse(file.attrs["summary"])
         loaded.history = History(**_values(file["history"]))
         loaded.breaks = _values(file["breaks"])
+    if "joint_peaks" in file:
+        loaded.storeys = Storeys(**_values(file["storeys"]))
+        loaded.peaks, loaded.columns = _values(file["joint_peaks"]), _values(file["columns"])
     return loaded
 
 

@@ -18,7 +18,7 @@ import numpy as np
 
 from .series import Series
 
-NAME = "history.csv"
+NAME, BREAKS = "history.csv", "breaks.csv"
 DIRECTIONS = ("ns", "ew")
 
 

@@ -16,7 +16,7 @@ from ..base.errors import InputError
 from ..house.description import house_path
 from ..house.loader import house_files
 from ..motion.readers import find_files
-from ..motion.sequence import following
+from ..motion.sequence import following, with_factor
 
 ROOMS = ("*.py", "base/*.py", "house/*.py", "motion/*.py", "scene/*.py", "run/*.py", "recording/*.py", "data/*.csv",
          "data/houses/*")
@@ -34,13 +34,18 @@ def made_from(options):
     return {"options": options.decisive(), "files": files, "package": package()}
 
 
+def content(origin):
+    """{property: value} of a run wherever its files are. origin: its `made_from`"""
+    options = {name: value for name, value in origin["options"].items() if name not in ("record", "town")}
+    if "then" in options:
+        options["then"] = [with_factor(entry)[1] for entry in options["then"].split(";")]
+    return {**options, "house": Path(options["house"]).stem, "content of files": origin["files"]}
+
+
 def identity(origin):
     """{property: value} that a checkpoint and the run that continues it share. origin: `made_from` of the run"""
-    options = {name: value for name, value in origin["options"].items() if name not in ("duration", "record", "town")}
-    if "then" in options:
-        options["then"] = [factor for _, factor in following(options["then"], "then")]
-    return {**options, "house": Path(options["house"]).stem, "content of files": origin["files"],
-            "package": origin["package"]}
+    shared = {name: value for name, value in content(origin).items() if name != "duration"}
+    return {**shared, "package": origin["package"]}
 
 
 def _input_files(options):

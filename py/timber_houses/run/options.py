@@ -6,7 +6,7 @@ from shlex import quote
 from typing import Callable
 
 from ..base.errors import RunError, one_line
-from ..base.options import command_option, is_given, option, options, words
+from ..base.options import command_option, is_given, option, options
 from ..base.time_step import DEFAULT_DT, MAX_DT, MAX_DURATION, MIN_DT
 from ..house import LEVELS, shipped_houses
 from ..house.disturbance import LARGEST
@@ -150,11 +150,6 @@ class RunOptions(MotionRequest):
         motion = self.ground_motion
         return (values if motion is None
                 else {**values, "ground_motion": of_values([motion.name, motion.dt, of_arrays([motion.acceleration])])})
-
-    def words(self):
-        """Arguments of the run script that give these options."""
-        return words({each: getattr(self, each) for each in options(RunOptions) if is_given(self, each)},
-                     bool(self.name))
 
 
 def scripted(name, house, earthquake=False, snow=False, **more):

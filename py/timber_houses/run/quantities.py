@@ -16,12 +16,12 @@ from ..base.atomic_write import write_text
 from ..base.table import csv_text
 from ..recording import quantities
 from ..recording.history import DIRECTIONS
-from ..recording.peaks import COLUMNS, JOINTS
 from ..recording.summary_parts import (LargestForce, LargestUplift, LargestUtilisation, Modes, Quantities, Shear,
                                        StoreyQuantities)
 from . import observer
 from .modal import modes_now
 
+JOINTS, COLUMNS = "joints.csv", "columns.csv"
 NAMES = (quantities.NAME, JOINTS, COLUMNS)
 """Files that `Tables.write` makes."""
 AXES = quantities.AXES
@@ -114,10 +114,9 @@ COLUMN_HEADER = ("column", "structure", "storey", "east [m]", "north [m]", "upli
                  "state")
 
 
-def joint_peaks(observed):
-    """Rows of joints.csv, the largest utilisation first. observed: Observer of the run"""
+def joint_rows(observed, peaks):
+    """Rows of joints.csv, the largest utilisation first. observed: Observer of the run; peaks: of Tables"""
     model, (_, broken) = observed.model, record.joint_loads()
-    peaks = observed.joint_peaks() or [(0.0,) * 4] * len(model.joints)
     rows = []
     for joint, (load, pull, shear, opening), springs in zip(model.joints, peaks, broken):
         state = ("before" if joint.broken else "broken" if springs >= len(joint.points) else "partly" if springs
@@ -151,11 +150,22 @@ def column_feet(observed):
 
 @dataclass(frozen=True)
 class Tables:
-    """Content of the files. storeys: Storeys; joints: JointRows; columns: ColumnRows"""
+    """Content of the files. peaks: (load [-], pull [N], shear [N], opening [m]) of the joints in their order; joints:
+    JointRows; columns: ColumnRows"""
 
     storeys: quantities.Storeys
+    peaks: list
     joints: list
     columns: list
+
+    def recorded(self, number):
+        """Arguments of frames.Frames. number: {name of an element: its number}"""
+        peaks = np.array(self.peaks, float).reshape(-1, 4).T
+        columns = {"element": np.array([number[row.name] for row in self.columns], "i4"),
+                   "uplift": np.array([row.uplift for row in self.columns], float),
+                   "state": [row.state for row in self.columns]}
+        return {"storeys": self.storeys, "peaks": dict(zip(("load", "pull", "shear", "opening"), peaks)),
+                "columns": columns}
 
     def write(self, folder):
         """Write storeys.csv, joints.csv, columns.csv; returns their paths. Raises OSError."""
@@ -167,7 +177,8 @@ class Tables:
 
 def tables(observed):
     """Tables of the run as it is now. observed: Observer of the run"""
-    return Tables(storeys(), joint_peaks(observed), column_feet(observed))
+    peaks = observed.joint_peaks() or [(0.0,) * 4] * len(observed.model.joints)
+    return Tables(storeys(), peaks, joint_rows(observed, peaks), column_feet(observed))
 
 
 def summarised(tables, observed):

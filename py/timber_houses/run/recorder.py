@@ -70,15 +70,15 @@ class Recorder:
             frames.save(self.path, self.frames)
             self.described = True
 
-    def finish(self, summary):
+    def finish(self, summary, tables):
         """Write all frames up to now and the results into one file; returns the Frames. The run may go on.
-        summary: Summary. Raises OSError.
+        summary: Summary; tables: quantities.Tables. Raises OSError.
         """
         monitor, entries = find_engine(yw.HouseMonitor), list(find_engine(yw.JointEngine).breaks)
         breaks = {name: [getattr(entry, name) for entry in entries] for name in observer.BREAKS}
         breaks["cause"] = [observer.cause_of(entry, self.model) for entry in entries]
         whole = replace(self.frames, summary=summary, history=History(monitor.columns(), monitor.rows), breaks=breaks,
-                        contacts=frames.Contacts())
+                        contacts=frames.Contacts(), **tables.recorded(observer.element_numbers(self.model)))
         self.log.pending = list(self.log.records())
         frame_log.add_frames(whole, self.log.pending)
         frames.save(self.path, whole)

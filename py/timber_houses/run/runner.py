@@ -270,7 +270,7 @@ class Run(Stoppable):
         written = []
         with explain_writing(self.options):
             if self.recorder:
-                self.frames = self.recorder.finish(self.summary)
+                self.frames = self.recorder.finish(self.summary, tables)
                 written.append(self.frames_path)
             return written + summary.write(self.options.folder, self.summary, tables, self.observer.model)
 

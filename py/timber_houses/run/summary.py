@@ -16,9 +16,8 @@ from ..base.json_types import decode, encode
 from ..base.table import csv_text
 from ..house import comparison, diagnose, weigh
 from ..recording import drift
+from ..recording.history import BREAKS, History
 from ..recording.history import NAME as HISTORY
-from ..recording.history import History
-from ..recording.peaks import BREAKS
 from ..recording.summary import NAME, Summary
 from ..recording.summary_parts import ColumnDrifts, Diagnosis, Energy, Solver, Versions, Walls, Weight
 from ..text.english import sentence

@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Starts run scripts, each in a YADE process of its own, several at a time.
+"""Runs in YADE processes of their own, several at a time.
 
 A task is done when its folder holds a summary.json made from the same options, files and package. `run_missing` starts
-the other tasks. An interrupted run continues from its checkpoint. run.json records how a run ended; run.log holds its
-messages.
+the other tasks: a process finds its options in request.json of the folder (run/request_file.py). An interrupted run
+continues from its checkpoint. run.json records how a run ended; run.log holds its messages.
 """
 import json
-import math
 import os
 import shutil
 import signal
@@ -24,21 +23,22 @@ from ..base.json_types import require
 from ..base.lock import is_locked, locked
 from ..base.options import options
 from ..base.processors import processors
-from ..base.record_file import open_record, read_record, record
+from ..base.record_file import open_record, read_record
 from ..recording.summary import NAME as SUMMARY
 from ..recording.summary import Summary
+from ..run import request_file
 from ..run.identity import made_from
 from ..run.options import RunOptions
 from ..text.english import counted
 
 END, LOG = "run.json", "run.log"
+ENTRY = Path(__file__).resolve().parents[1] / "api" / "requested.py"
+"""What a process starts."""
 DRIVER = ".driver"
 """Lock of the driver that starts a run."""
 STATES = ("done", "failed", "unfinished")
 STOPS = ("SIGHUP", "SIGINT", "SIGKILL", "SIGTERM")
 """Signals after which a run is continued; others are crashes."""
-END_OF_LOG = 100_000
-"""Part of a log in which the error message is looked for. [bytes]"""
 POLL = 0.2
 """Wall time between two checks of the running processes. [s]"""
 SAVE_TIME = 60.0
@@ -47,19 +47,17 @@ SAVE_TIME = 60.0
 
 @dataclass(frozen=True)
 class Task:
-    """A run: script name without .py, folder of its results, RunOptions."""
+    """A run: folder of its results, RunOptions that decide them."""
 
-    script: str
     folder: Path
     options: RunOptions
 
-    def words(self):
-        """Arguments of the script: the options that decide results, and those with which the driver runs it."""
+    def request(self):
+        """RunOptions of its process: those that decide results, and those with which the driver runs it."""
+        indecisive = {name: each.default for name, each in options(RunOptions).items()
+                      if not each.metadata["decides"]}
         own = {"out": self.folder, "resume": True, "or_anew": True, "no_views": True, "quiet": True}
-        alone = dict.fromkeys(("ensemble", "jobs", "export")) | {
-            "report": False, "checkpoint": options(RunOptions)["checkpoint"].default
-        }
-        return replace(self.options, **own, **alone).words()
+        return replace(self.options, **{**indecisive, "no_frames": self.options.no_frames, **own})
 
     @property
     def summary(self):
@@ -78,14 +76,20 @@ class Task:
         """One of STATES."""
         return "failed" if self.error else "done" if self.summary is not None else "unfinished"
 
-    def record(self, error):
-        """Write run.json. error: message of a failed run, None of others"""
-        content = {"status": "failed" if error else "done", "error": error}
-        write_text(self.folder / END, json.dumps(content) + "\n")
-
     def is_missing(self, retry):
         """Whether the run is to be started; retry: failed runs, too."""
         return self.summary is None and (retry or not self.error)
+
+
+def record_end(folder, error):
+    """Write run.json. error: message of a failed run, None of others"""
+    write_text(folder / END, json.dumps({"status": "failed" if error else "done", "error": error}) + "\n")
+
+
+def note_fault(folder, fault):
+    """Record the InputError that ends the run of this process, unless another one computes a run in the folder."""
+    if not is_locked(folder):
+        record_end(folder, str(fault))
 
 
 def _read(path):
@@ -100,10 +104,9 @@ def _read(path):
         raise RunError(f"{path}: cannot be read: {problem}; remove it, or take another folder") from None
 
 
-def run_missing(tasks, scripts, jobs=None, report=print, retry=True):
+def run_missing(tasks, jobs=None, report=print, retry=True):
     """Run the tasks that are not done, `jobs` at a time (default: one per core); returns {task: summary or None}.
 
-    scripts  folder of the run scripts
     report   called with one line for each run that ends
     retry    whether failed runs are started again
 
@@ -114,20 +117,20 @@ def run_missing(tasks, scripts, jobs=None, report=print, retry=True):
     missing = [task for task in tasks if task.is_missing(retry)]
     for task in set(tasks).difference(missing):
         if not os.path.lexists(task.folder / END):  # its driver was killed before the run ended
-            task.record(None)
+            record_end(task.folder, None)
     if missing:
         report(f"{len(missing)} of {len(tasks)} runs to do")
-        _run_all(missing, scripts, jobs or processors(), report)
+        _run_all(missing, jobs or processors(), report)
     return {task: task.summary for task in tasks}
 
 
-def _run_all(tasks, scripts, jobs, report):
+def _run_all(tasks, jobs, report):
     waiting, running, ended = deque(tasks), [], 0
     previous = signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         while waiting or running:
             while waiting and len(running) < jobs:
-                running.append(_Process(waiting.popleft(), scripts))
+                running.append(_Process(waiting.popleft()))
             for process in [process for process in running if process.has_ended()]:
                 running.remove(process)
                 ended += 1
@@ -163,7 +166,7 @@ def _stop(processes):
 class _Process:
     """The YADE process of a task. None is started while another process computes a run in the task's folder."""
 
-    def __init__(self, task, scripts):
+    def __init__(self, task):
         self.task, self.child, self.start = task, None, time.monotonic()
         make_folder(task.folder)
         self.outdated, self.lock = (task.folder / SUMMARY).exists(), ExitStack()
@@ -171,11 +174,11 @@ class _Process:
             return
         for name in (END, SUMMARY):
             remove(task.folder / name)
-        arguments = [*command(scripts / f"{task.script}.py"), *task.words()]
-        path = task.folder / LOG
-        with open_record(path, os.O_RDWR | os.O_CREAT | os.O_TRUNC) as log:
-            self.child = subprocess.Popen(arguments, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
-                                          start_new_session=True, env={**os.environ, "OMP_NUM_THREADS": "1"})
+        request_file.write(task.request())
+        with open_record(task.folder / LOG, os.O_RDWR | os.O_CREAT | os.O_TRUNC) as log:
+            self.child = subprocess.Popen([*command(ENTRY), str(task.folder)], stdin=subprocess.DEVNULL, stdout=log,
+                                          stderr=log, start_new_session=True,
+                                          env={**os.environ, "OMP_NUM_THREADS": "1"})
 
     @property
     def age(self):
@@ -197,7 +200,7 @@ class _Process:
         if ended_by in STOPS:
             return f"stopped by {ended_by}; the next start continues this run"
         error = f"crashed ({ended_by}); see {self.task.folder / LOG}" if ended_by else self._error()
-        self.task.record(error)
+        record_end(self.task.folder, error)
         if error:
             return f"failed: {error}"
         again = " again (other options, files or package)" if self.outdated else ""
@@ -206,23 +209,11 @@ class _Process:
     def _error(self):
         """Error message of the run, or None."""
         if self.child.returncode:
-            return last_error(_end(self.task.folder / LOG), self.child.returncode)
+            return self.task.error or f"exit status {self.child.returncode}; see {self.task.folder / LOG}"
         if self.task.summary is None:
             return (f"the run used another timber_houses than {Path(__file__).parents[1]}: start this script with"
                     " YADE's Python")
         return None
-
-
-def last_error(text, status):
-    """Error message of a script that has ended with an exit status. text: what it printed"""
-    lines = [line.strip() for line in text.split("\n") if line.strip()]
-    return lines[-1].removeprefix("error: ") if lines else f"exit status {status}"
-
-
-def _end(path):
-    with record(path, limit=math.inf) as file:
-        file.seek(max(0, os.fstat(file.fileno()).st_size - END_OF_LOG))
-        return file.read(END_OF_LOG).decode(errors="replace")
 
 
 def _signal(status):

@@ -8,14 +8,14 @@ from ..recording.summary_parts import OtherWalls
 from .driver import Task, run_missing
 
 
-def run(script, options):
+def run(options):
     """OtherWalls of the summary, from a run in the folder walls_LEVEL; None without rated walls. Raises RunError."""
     data = load_house(options.house).data
     if not has_rated_walls(data):
         return None
     (level,) = set(LEVELS) - {options.walls or data["law"]["wall_level"]}
-    task = Task(script.stem, options.folder / f"walls_{level}", replace(options, walls=level, no_frames=True))
-    summary = run_missing([task], script.resolve().parent, 1, options.say)[task]
+    task = Task(options.folder / f"walls_{level}", replace(options, walls=level, no_frames=True))
+    summary = run_missing([task], 1, options.say)[task]
     if summary is None:
         raise RunError(f"the run with walls of the level {level} has no results: {task.error or task.folder}")
     return OtherWalls(level=level, verdict=summary.verdict, peak_drift=summary.peak_drift)

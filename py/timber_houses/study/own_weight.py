@@ -6,21 +6,21 @@ from pathlib import Path
 
 from ..base.errors import RunError
 from ..recording.summary import Summary
+from ..run import request_file
 from ..run.options import RunOptions
 from ..text.english import sentence
-from .driver import command, last_error
+from .driver import ENTRY, Task, command
 
 TIME = 3.0
 """Simulated time of the run. A sound house is at rest after 1 s, and time at rest costs little. [s]"""
 
 
-def check_own_weight(house, snow, scripts):
-    """The result as a sentence. house: name or file; snow: depth [m] or None; scripts: folder. Raises RunError."""
+def check_own_weight(house, snow):
+    """The result as a sentence. house: name or file; snow: depth [m] or None. Raises RunError."""
     with tempfile.TemporaryDirectory() as folder:
-        options = RunOptions(house=str(house), snow=snow, duration=TIME, no_frames=True, checkpoint=0.0, quiet=True,
-                             out=Path(folder))
-        done = subprocess.run([*command(scripts / "house.py"), *options.words()], stdin=subprocess.DEVNULL,
-                              capture_output=True, text=True)
+        task = Task(Path(folder), RunOptions(house=str(house), snow=snow, duration=TIME, no_frames=True))
+        request_file.write(task.request())
+        done = subprocess.run([*command(ENTRY), folder], stdin=subprocess.DEVNULL, capture_output=True)
         if done.returncode:
-            raise RunError(last_error(done.stderr, done.returncode))
+            raise RunError(task.error or f"exit status {done.returncode}")
         return sentence(Summary.read(folder))

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 from summaries import sample_summary
-from timber_research import SCRIPTS, claims
+from timber_research import claims
 from timber_houses.base.json_types import encode
 from timber_houses.run.options import scripted
 from timber_houses.study.driver import Task, run_missing
@@ -27,8 +27,8 @@ change of 1e-13 m in the vertices changed peak drifts by up to 55 %."""
 
 @pytest.fixture(scope="module")
 def runs():
-    tasks = [Task(run, Path("results").absolute() / run, scripted(run, *claims.parse_run(run))) for run in claims.RUNS]
-    found = {task.script: summary for task, summary in run_missing(tasks, SCRIPTS).items()}
+    tasks = [Task(Path("results").absolute() / run, scripted(run, *claims.parse_run(run))) for run in claims.RUNS]
+    found = {task.options.name: summary for task, summary in run_missing(tasks).items()}
     if os.environ.get("YADE_TIMBER_UPDATE_GOLDEN"):
         write(found)
     return found

@@ -203,7 +203,7 @@ def test_robustness_study(tmp_path):
     cases = study["all_cases"]([0], ["records/KOBE"])
     tasks = {case: study["tasks_of"](case, options, tmp_path) for case, (_, options) in cases.items()}
     assert {case: len(some) for case, some in tasks.items()} == {"shipped": 14, "seed-0": 11, "KOBE": 11}
-    assert tasks["KOBE"]["modelB1_snow"] == Task("modelB1_snow", tmp_path / "KOBE" / "modelB1_snow",
+    assert tasks["KOBE"]["modelB1_snow"] == Task(tmp_path / "KOBE" / "modelB1_snow",
                                                  scripted("modelB1_snow", "B1", True, True, record="records/KOBE"))
     assert "modelA_snow" in tasks["shipped"] and "modelA_snow" not in tasks["KOBE"]
     text = comparison.write({case: about
@@ -221,6 +221,7 @@ def test_only_runs_with_an_earthquake_get_motion_options():
     values = script["run_options"](argparse.Namespace(record=None, seed="3", scale="0.5", start=None, end=None,
                                                       dt="1e-4", duration=None))
     assert values == {"dt": 1e-4, "seed": 3, "scale": 0.5}
-    assert script["run_of"]("modelA_quake", "A", True, False,
-                            values).words() == ["--seed=3", "--scale=0.5", "--dt=0.0001"]
-    assert script["run_of"]("modelA_snow", "A", False, True, values).words() == ["--dt=0.0001"]
+    loads = {"modelA_quake": (True, False), "modelA_snow": (False, True)}
+    found = {run: script["run_of"](run, "A", *of, values) for run, of in loads.items()}
+    assert found == {run: scripted(run, "A", *of, dt=1e-4, **({"seed": 3, "scale": 0.5} if of[0] else {}))
+                     for run, of in loads.items()}

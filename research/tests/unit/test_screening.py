@@ -18,7 +18,6 @@ from timber_research.screening.responses import COUNT as NUMBER
 from timber_research.screening.responses import LOG, RESPONSES, SHARE
 from timber_houses.house import build_house, load_house
 from timber_houses.run.options import RunOptions
-from timber_houses.study.batch import read_table
 from timber_houses.study.batch.tasks import task_of
 
 NAMES = [factor.name for factor in FACTORS]
@@ -119,8 +118,8 @@ def test_plan_and_table(tmp_path):
             for entry in planned} == set(RUNS) and {entry.motion
                                                     for entry in planned} == {"seed3", "seed0", None}
     some = [entry for entry in planned if entry.cell == 5]
-    rows = read_table(cells.write_inputs(some, tmp_path))
-    options = {(entry.run, entry.motion): task_of(row, tmp_path).options for entry, row in zip(some, rows, strict=True)}
+    cells.write_houses(some, tmp_path)
+    options = {(entry.run, entry.motion): task_of(entry.row(tmp_path), tmp_path).options for entry in some}
     house = str(tmp_path / "houses" / "c05" / "B1.yaml")
     assert options["modelB1_snow", "seed0"] == RunOptions(
         house=house, quake=True, snow=1.0, dt=4e-4, until_collapse=True, seed=0, start=15.0, end=29.0, no_frames=True)
@@ -131,10 +130,10 @@ def test_plan_and_table(tmp_path):
 
 def test_unchanged_houses_are_not_written_again(tmp_path):
     planned = cells.plan(MOTIONS, 4e-4)[:1]
-    cells.write_inputs(planned, tmp_path)
+    cells.write_houses(planned, tmp_path)
     house = tmp_path / cells.house_file(0, "A")
     before = house.stat().st_mtime_ns
-    cells.write_inputs(planned, tmp_path)
+    cells.write_houses(planned, tmp_path)
     assert house.stat().st_mtime_ns == before
 
 

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Tests between two ensembles: p values by hand and of scipy, differences that are shown."""
 import runpy
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -82,11 +83,11 @@ def test_few_or_equal_values_have_no_test():
 
 
 def test_the_study_plans_runs_at_both_steps(tmp_path):
-    """Runs of the study are commands of a run script, each with its step, disturbance and part of the motion."""
+    """Each run has its step, disturbance and part of the motion."""
     study = runpy.run_path(str(SCRIPTS.parent / "research" / "ensemble_steps.py"))
     options = SimpleNamespace(runs=2, start=15.0, end=29.0, dt=1e-4, cases="modelC2_snow", out=tmp_path)
     planned = study["plan"](options)
-    small, default = (planned["modelC2_snow", name][1].words() for name in study["NAMES"])
-    assert {"--dt=0.0001", "--disturb=2", "--end=29.0", "--until-collapse"} < {*small}
-    assert {*small} - {*default} == {"--dt=0.0001", f"--out={tmp_path}/modelC2_snow/small/runs/002"}
+    small, default = (planned["modelC2_snow", name][1].request() for name in study["NAMES"])
+    assert (small.dt, small.disturb, small.end, small.until_collapse) == (1e-4, 2, 29.0, True)
+    assert small == replace(default, dt=1e-4, out=tmp_path / "modelC2_snow" / "small" / "runs" / "002")
     assert study["collect"](planned) == ([], {name: [] for name in study["NAMES"]}, 0)

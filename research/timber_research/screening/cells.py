@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Cells of the screening: house files and the rows of its batch table.
+"""Cells of the screening: house files and rows of its batch.
 
 A cell is a run of the design: one level of each factor, for all houses. Its runs are the paper's: those with an
 earthquake under each motion, those with snow alone once. Cells are numbered in the order of the design, whose first
@@ -10,16 +10,16 @@ from pathlib import Path
 
 import yaml
 from timber_houses.base.atomic_write import write_text
-from timber_houses.base.table import csv_text
 from timber_houses.base.time_step import DEFAULT_DT
 from timber_houses.motion import MotionRequest, onset
-from timber_houses.study.batch.table import NO_EARTHQUAKE
+from timber_houses.run.options import RunOptions
+from timber_houses.study.batch import Row
 
 from .. import design
 from ..claims import RUNS, parse_run
 from ..factors import FACTORS, house_entries
 
-TABLE, HOUSES = "table.csv", "houses"
+HOUSES = "houses"
 SNOW_DEPTH = 1.0
 """Snow on the roofs. [m] (paper, section 3.4)"""
 LEAD, LENGTH = 4.0, 14.0
@@ -30,15 +30,15 @@ SIGNS = design.levels(len(FACTORS))
 
 @dataclass(frozen=True)
 class Motion:
-    """A ground motion: name in tables, and its columns in the batch table."""
+    """A ground motion: name in tables, and its options of a run."""
 
     name: str
-    columns: tuple
+    options: dict
 
 
 def synthetic(seed, start, end):
     """Part of a synthetic motion. start, end [s]"""
-    return Motion(f"seed{seed}", (("seed", seed), ("start", start), ("end", end)))
+    return Motion(f"seed{seed}", {"seed": seed, "start": start, "end": end})
 
 
 def recorded(record):
@@ -46,17 +46,23 @@ def recorded(record):
     RecordError.
     """
     start = max(0.0, round(onset(MotionRequest(record=record).motion(DEFAULT_DT)) - LEAD, 2))
-    return Motion(Path(record).name, (("record", Path(record).absolute()), ("start", start), ("end", start + LENGTH)))
+    return Motion(Path(record).name, {"record": str(Path(record).absolute()), "start": start, "end": start + LENGTH})
 
 
 @dataclass(frozen=True)
 class Planned:
-    """A run of the screening. motion: name, None without an earthquake; row: {column: value} of the batch table."""
+    """A run of the screening. motion: name, None without an earthquake; options: {option: value} but the house."""
 
     cell: int
     run: str
     motion: str
-    row: dict
+    options: dict
+
+    def row(self, folder):
+        """Row of the batch. folder: of the screening"""
+        name = "_".join(filter(None, (cell_name(self.cell), self.run.removeprefix("model"), self.motion)))
+        house = Path(folder).absolute() / house_file(self.cell, parse_run(self.run)[0])
+        return Row(RunOptions(house=str(house), **self.options), description=name, place=name)
 
 
 def plan(motions, dt):
@@ -67,18 +73,10 @@ def plan(motions, dt):
 def _runs_of(cell, motions, dt):
     shaken = [run for run in RUNS if parse_run(run)[1]]
     quiet = [run for run in RUNS if not parse_run(run)[1]]
-    found = [(run, motion.name, dict(motion.columns)) for motion in motions for run in shaken]
-    found += [(run, None, {"record": NO_EARTHQUAKE}) for run in quiet]
-    return [Planned(cell, run, motion, _row(cell, run, motion, {**columns, "dt": dt}))
-            for run, motion, columns in found]
-
-
-def _row(cell, run, motion, columns):
-    house, _, snow = parse_run(run)
-    name = "_".join(filter(None, (cell_name(cell), run.removeprefix("model"), motion)))
-    values = {"description": name, "house": house_file(cell, house), "snow": SNOW_DEPTH if snow else 0,
-              "until_collapse": "yes"}
-    return {**dict.fromkeys(("record", "seed", "start", "end")), **values, **columns}
+    found = [(run, motion.name, {"quake": True, **motion.options}) for motion in motions for run in shaken]
+    found += [(run, None, {}) for run in quiet]
+    return [Planned(cell, run, motion, {"snow": SNOW_DEPTH if parse_run(run)[2] else 0.0, "until_collapse": True,
+                                        "dt": dt, **options}) for run, motion, options in found]
 
 
 def cell_name(cell):
@@ -90,15 +88,11 @@ def house_file(cell, house):
     return f"{HOUSES}/{cell_name(cell)}/{house}.yaml"
 
 
-def write_inputs(planned, folder):
-    """Write house files and batch table of the planned runs to a folder; returns the path of the table. Raises OSError.
-    """
+def write_houses(planned, folder):
+    """Write the house files of the planned runs to the folder of the screening. Raises OSError."""
     for cell, house in dict.fromkeys((entry.cell, parse_run(entry.run)[0]) for entry in planned):
         _write_new(folder / house_file(cell, house),
                    yaml.safe_dump(house_entries(house, FACTORS, SIGNS[cell]), sort_keys=False))
-    rows = [entry.row for entry in planned]
-    write_text(folder / TABLE, csv_text(list(rows[0]), [row.values() for row in rows]))
-    return folder / TABLE
 
 
 def _write_new(path, text):

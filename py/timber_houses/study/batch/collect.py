@@ -5,6 +5,7 @@ from ...base.atomic_write import write_text
 from ...base.json_types import encode, leaves
 from ...base.table import csv_text
 from ...text.english import event
+from .table import COLUMNS
 from .tasks import task_of
 
 RUNS = "runs.csv"
@@ -37,7 +38,7 @@ RESULTS = {
 
 def write_runs(rows, folder):
     """Write runs.csv with the present state of all runs; returns its rows, with None for empty cells."""
-    columns = list(dict.fromkeys(column for row in rows for column in row.cells))
+    columns = [column for column in COLUMNS if any(column in row.cells for row in rows)]
     results = [_result(row, task_of(row, folder), columns) for row in rows]
     header = list(results[0]) if results else ["run"]
     write_text(folder / RUNS, csv_text(header, [result.values() for result in results]))
@@ -51,7 +52,7 @@ def _result(row, task, columns):
     return {
         "run": row.name, "line": row.line, "description": row.description or None,
         "status": "failed" if error else "done" if summary else "unfinished",
-        "error": error and f"{row.table.name}:{row.line}: {error}",
+        "error": error and f"{row.place}: {error}",
         **{column: row.cells.get(column) for column in columns}, "peak_drift": summary and summary.largest_drift()[0],
         **{column: table.get(path) for column, path in RESULTS.items()},
         "events": "; ".join(f"{one.time_s:.2f} s {event(one)}" for one in (summary.events if summary else ())) or None

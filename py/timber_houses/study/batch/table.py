@@ -6,131 +6,24 @@ line above; columns whose names begin with `!` belong to yade-batch and are igno
 cell is the default. Relative paths are relative to the table's folder.
 """
 import csv
-import hashlib
-import json
 import re
-from dataclasses import dataclass
-from functools import lru_cache
 from pathlib import Path
 
-from ...base.errors import RunError
 from ...base.input_file import read_bytes
-from ...house import HouseError, load_house
-from ...base.options import option, options, read
+from ...base.options import read
 from ...base.remedies import nearest
-from ...motion import RecordError
-from ...motion.readers import find_files
-from ...motion.sequence import with_factor
 from ...run.options import OptionSource, RunOptions
+from .row import DECISIVE, HOUSE_CHANGES, NO_EARTHQUAKE, BatchError, HouseChanges, Row
 
 MAX_FILE_SIZE = 10_000_000
 """[bytes]"""
-NO_EARTHQUAKE = "none"
-"""Value of the column `record` for a run without an earthquake."""
-
-
-@dataclass(frozen=True)
-class HouseChanges:
-    """Columns that change the house of a row."""
-
-    set: str = option(str,
-                      "changes of the house: key=value;key=value, keys as in house files, list items counted from 1")
-    braces: str = option(str, "names of braces and walls to add to the house, separated by ;")
-    strength: float = option(float, "factor on the strength of all joints (default 1)", default=1.0)
-
-
-CHANGES = options(HouseChanges)
-DECISIVE = {name: each for name, each in options(RunOptions).items() if each.metadata["decides"] and name != "quake"}
-COLUMNS = {"house": DECISIVE["house"], **CHANGES, **DECISIVE}
+COLUMNS = {"house": DECISIVE["house"], **HOUSE_CHANGES, **DECISIVE}
 """{column: option}, without the column `description`. A run has an earthquake unless its record is NO_EARTHQUAKE."""
 DESCRIPTION = "description"
 NOT_UTF8 = "not UTF-8 text; save it as UTF-8 (in a spreadsheet: CSV UTF-8)"
 MIXED = ("the first line has no commas, so blanks separate the columns: separate the names in it by commas, too, or the"
          " values here by blanks alone")
 """Remedy for a table with blanks in the first line and commas in others."""
-
-
-class BatchError(RunError):
-    """A table that cannot be run; the message is one line: table, line, column, admissible values."""
-
-
-@dataclass(frozen=True)
-class Row:
-    """One run of a table. cells: {column: text} without defaults and without yade-batch's columns."""
-
-    table: Path
-    line: int
-    cells: dict
-    description: str = ""
-
-    def where(self, column):
-        """'runs.txt:5, column scale'."""
-        return f"{self.table.name}:{self.line}, column {column}"
-
-    def value(self, column):
-        """The value of a column in its type, or its default. Raises RunError for text that is no such value."""
-        return (read(COLUMNS[column], self.cells[column], f"{self.where(column)}:") if column in self.cells
-                else COLUMNS[column].default)
-
-    def options(self, house=None):
-        """RunOptions of scripts/house.py. house: file in place of the row's. Raises RunError."""
-        files = {"house": str(house or self.house), "record": self.record, "then": self.then}
-        calm = self.cells.get("record") == NO_EARTHQUAKE
-        if calm and "seed" in self.cells:
-            raise BatchError(f"{self.where('seed')}: the column record is {NO_EARTHQUAKE}, without an earthquake")
-        source = OptionSource(lambda column: f"{self.where(column)}:", f"the column record is {NO_EARTHQUAKE}")
-        return RunOptions(quake=not calm, source=source,
-                          **{column: self.value(column) for column in DECISIVE if column not in files}, **files)
-
-    @property
-    def house(self):
-        """Name of a shipped house, or path of a house file; relative paths are relative to the table."""
-        name = self.cells["house"]
-        beside = self.table.parent / name
-        is_path = "/" in name or name.endswith((".yaml", ".yml"))
-        return str(beside) if is_path or beside.is_file() else name
-
-    @property
-    def record(self):
-        """Files or prefix of the record; None: synthetic motion or no earthquake."""
-        text = self.cells.get("record")
-        return None if text in (None, NO_EARTHQUAKE) else self._beside(text)
-
-    @property
-    def then(self):
-        """Records that follow the first, with factors; paths relative to the table. None: no sequence."""
-        text = self.cells.get("then")
-        return None if text is None else ";".join(self._beside(part.strip()) for part in text.split(";"))
-
-    def _beside(self, record):
-        return ",".join(str(self.table.parent / Path(part.strip()).expanduser()) for part in record.split(","))
-
-    @property
-    def name(self):
-        """Name of the run and its folder: it follows from the content of the row, its house and its record."""
-        label = self.description or Path(self.cells["house"]).stem
-        following = [] if self.then is None else [with_factor(entry)[0] for entry in self.then.split(";")]
-        digests = map(_record_digest, [self.record, *following])
-        content = json.dumps([sorted(self.cells.items()), _house_text(self.house), *digests])
-        return f"{re.sub(r'[^A-Za-z0-9._+=-]+', '_', label)[:60]}-{hashlib.sha256(content.encode()).hexdigest()[:8]}"
-
-
-@lru_cache(maxsize=256)
-def _house_text(house):
-    """Content of a house file and those it extends; None for a house with errors, reported by the row's check."""
-    try:
-        return json.dumps(load_house(house).data, sort_keys=True)
-    except HouseError:
-        return None
-
-
-@lru_cache(maxsize=256)
-def _record_digest(record):
-    try:
-        paths = [] if record is None else find_files(record)
-        return [hashlib.sha256(path.read_bytes()).hexdigest() for path in paths]
-    except (RecordError, OSError):
-        return None
 
 
 # --- reading ----------------------------------------------------------------------------------------------------------
@@ -161,12 +54,43 @@ def read_table(path):
         cells = _named(cells, heads, f"{path.name}:{number}")
         above = {head: _resolved(cell, above.get(head), f"{path.name}:{number}, column {head}")
                  for head, cell in cells}
-        stated = {head: cell for head, cell in above.items() if cell != "*"}
-        rows.append(Row(path, number, {h: c for h, c in stated.items() if h in COLUMNS}, stated.get(DESCRIPTION, "")))
-        if "house" not in rows[-1].cells:
-            raise BatchError(f"{rows[-1].where('house')}: every run needs a house")
+        rows.append(_row({head: cell for head, cell in above.items() if cell != "*"}, path, number))
     _check_repeated(rows)
     return rows
+
+
+def _row(cells, path, number):
+    """Row of {column: text} without defaults. Raises RunError for a text that is no value of its column."""
+    place = f"{path.name}:{number}"
+    if "house" not in cells:
+        raise BatchError(f"{place}, column house: every run needs a house")
+    values = {name: read(each, cells[name], f"{place}, column {name}:") for name, each in COLUMNS.items()
+              if name in cells}
+    changes = {name: values.pop(name) for name in HOUSE_CHANGES if name in values}
+    changes |= {name: tuple(filter(None, text.split(";"))) for name, text in changes.items() if isinstance(text, str)}
+    values["house"] = _house(values["house"], path.parent)
+    calm = values.get("record") == NO_EARTHQUAKE
+    if calm and "seed" in values:
+        raise BatchError(f"{place}, column seed: the column record is {NO_EARTHQUAKE}, without an earthquake")
+    if calm:
+        del values["record"]
+    values |= {name: ";".join(_beside(part.strip(), path.parent) for part in values[name].split(";"))
+               for name in ("record", "then") if name in values}
+    source = OptionSource(lambda column: f"{place}, column {column}:",
+                          f"the column record is {NO_EARTHQUAKE}")
+    return Row(RunOptions(quake=not calm, source=source, **values), HouseChanges(**changes),
+               cells.get(DESCRIPTION, ""), place, number)
+
+
+def _house(name, folder):
+    """Name of a shipped house, or path of a house file; relative paths are relative to the table's folder."""
+    is_path = "/" in name or name.endswith((".yaml", ".yml")) or (folder / name).is_file()
+    return str(folder / name) if is_path else name
+
+
+def _beside(record, folder):
+    """Files or prefix of a record, relative to the table's folder."""
+    return ",".join(str(folder / Path(part.strip()).expanduser()) for part in record.split(","))
 
 
 def _text_lines(path):
@@ -230,5 +154,5 @@ def _check_repeated(rows):
     lines = {}
     for row in rows:
         if row.name in lines:
-            raise BatchError(f"{row.table.name}:{row.line}: the same run as in line {lines[row.name]}; remove one")
+            raise BatchError(f"{row.place}: the same run as in line {lines[row.name]}; remove one")
         lines[row.name] = row.line

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Rows of a table as tasks of the driver: runs of scripts/house.py, all checked before the first run."""
+"""Rows as tasks of the driver, all checked before the first run."""
 from contextlib import contextmanager
 from dataclasses import replace
 from functools import lru_cache
@@ -12,41 +12,34 @@ from ...base.notes import noted
 from ...house import build_house, changed_house, load_house
 from ...house.parser import house_text
 from ..driver import Task, run_missing
-from .table import CHANGES, BatchError
+from .row import BatchError, HouseChanges
 
 HOUSE = "house.yaml"
 """House file of a row that changes its house, in the run's folder."""
 
 
-def run_rows(rows, folder, scripts, jobs=None, retry=False):
+def run_rows(rows, folder, jobs=None, retry=False):
     """Run the rows that are not done, all checked first; returns {task: summary or None}. retry: failed ones, too"""
     tasks = [task_of(row, folder) for row in rows]
     missing = [row for row, task in zip(rows, tasks) if task.is_missing(retry)]
     check_rows(missing, folder)
-    return run_missing(tasks, scripts, jobs, retry=retry)
+    return run_missing(tasks, jobs, retry=retry)
 
 
 def task_of(row, folder):
     """Task of a row, in the folder of that name. Paths are absolute: they are part of a run's identity."""
     folder = Path(folder).absolute() / row.name
-    return Task("house", folder, replace(row.options(folder / HOUSE if any(changes(row)) else None), no_frames=True))
-
-
-# --- houses -----------------------------------------------------------------------------------------------------------
-
-
-def changes(row):
-    """(set, braces, strength) of a row as texts, None for what it does not change."""
-    return tuple(row.cells.get(column) for column in CHANGES)
+    house = row.options.house if row.changes == HouseChanges() else str(folder / HOUSE)
+    return Task(folder, replace(row.options, house=house, no_frames=True))
 
 
 def write_house(row, folder):
     """Write the house file of a row that changes its house. Raises HouseError, OSError."""
-    settings, braces = (tuple(filter(None, (text or "").split(";"))) for text in changes(row)[:2])
-    data = changed_house(row.house, settings, braces, row.value("strength"), row.where)
+    house, changes = row.options.house, row.changes
+    data = changed_house(house, changes.set, changes.braces, changes.strength, row.where)
     path = Path(folder) / row.name / HOUSE
     make_folder(path.parent)
-    write_text(path, f"# House {row.cells['house']} with the changes of {row.table.name}\n{house_text(data)}")
+    write_text(path, f"# House {Path(house).stem} with changes\n{house_text(data)}")
 
 
 # --- checks -----------------------------------------------------------------------------------------------------------
@@ -56,8 +49,7 @@ def check_rows(rows, folder):
     """Refuse rows that cannot be run; files of changed houses are written. Raises BatchError, OSError."""
     for row in rows:
         with _located(row):
-            options = row.options()
-            options.check()
+            options = row.options.check()
             if options.record is not None or options.then is not None:
                 _read_record(options)
     _check_houses(rows, folder)
@@ -68,9 +60,9 @@ def _check_houses(rows, folder):
     built = set()
     for row in rows:
         with _located(row):
-            if any(changes(row)):
+            if row.changes != HouseChanges():
                 write_house(row, folder)
-            variant = row.house, changes(row), row.value("snow"), row.value("walls")
+            variant = row.options.house, row.changes, row.options.snow, row.options.walls
             if variant not in built:
                 options = task_of(row, folder).options
                 build_house(load_house(options.house), options.snow, wall_level=options.walls)
@@ -79,12 +71,12 @@ def _check_houses(rows, folder):
 
 @contextmanager
 def _located(row):
-    """Turns errors into a BatchError of one line that begins with the row's place in the table."""
+    """Turns errors into a BatchError of one line that begins with the row's place."""
     try:
         yield
     except InputError as problem:
-        text, place = str(problem), f"{row.table.name}:{row.line}"
-        raise BatchError(text if text.startswith(place) else f"{place}: {text}") from None
+        text = str(problem)
+        raise BatchError(text if text.startswith(row.place) else f"{row.place}: {text}") from None
 
 
 @lru_cache(maxsize=256)

@@ -13,21 +13,19 @@ FEWEST = 2
 """Finished runs below which there are no results."""
 
 
-def tasks(script, options):
-    """Tasks of an ensemble's runs, the first one undisturbed. script: name without .py; options: RunOptions"""
-    return [Task(script, run_folder(options.folder, k), replace(options, disturb=k if k > 1 else None))
+def tasks(options):
+    """Tasks of an ensemble's runs, the first one undisturbed. options: RunOptions"""
+    return [Task(run_folder(options.folder, k), replace(options, disturb=k if k > 1 else None))
             for k in range(1, options.ensemble + 1)]
 
 
-def complete(script, options):
-    """Run what is missing of an ensemble and write its results. script: path of the run script.
+def complete(options):
+    """Run what is missing of an ensemble and write its results.
 
     Raises RunError, also when some runs have failed, KeyboardInterrupt after a signal, when checkpoints are saved.
     """
-    if not script.is_file():
-        raise RunError(f"--ensemble: {script}: no such script, which the runs start")
-    planned = tasks(script.stem, options)
-    summaries = run_missing(planned, script.resolve().parent, options.jobs, options.say)
+    planned = tasks(options)
+    summaries = run_missing(planned, options.jobs, options.say)
     done = {k: summaries[task] for k, task in enumerate(planned, 1) if summaries[task] is not None}
     errors = {k: task.error or _reason(task) for k, task in enumerate(planned, 1) if k not in done}
     if len(done) >= FEWEST:

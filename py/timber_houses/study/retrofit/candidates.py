@@ -6,9 +6,9 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from ...base.atomic_write import write_text
-from ...house import (HouseError, brace_parts, build_house, changed_house, free_bays, free_wall_bays, load_house,
-                      wall_parts)
+from ...house import BayName, HouseError, build_house, changed_house, free_bays, free_wall_bays, load_house
 from ...house.parser import house_text
+from ..batch import HouseChanges
 
 KINDS = ("brace", "wall", "fitting", "snow")
 USUAL_KINDS = ("brace", "fitting", "snow")
@@ -21,11 +21,12 @@ GROUPS = ("bay", "wall")
 
 @dataclass(frozen=True)
 class Candidate:
-    """name: of its runs; text: for people; changes: {column: text} of a batch table that differ from the house."""
+    """name: of its runs; text: for people; changes of the house; options: {option: value} of its runs."""
 
     name: str
     text: str
-    changes: dict = field(default_factory=dict)
+    changes: HouseChanges = HouseChanges()
+    options: dict = field(default_factory=dict)
 
 
 AS_IT_IS = Candidate("as_it_is", "house as it is")
@@ -44,7 +45,7 @@ def candidates(house, snow, kinds=USUAL_KINDS, texts=("",), group="bay"):
     if "fitting" in kinds:
         chosen += fittings(description, model)
     if "snow" in kinds and snow > 0:
-        chosen.append(Candidate("snow_cleared", "snow cleared from the roofs", {"snow": "0"}))
+        chosen.append(Candidate("snow_cleared", "snow cleared from the roofs", options={"snow": 0.0}))
     return [candidate for candidate in chosen if any(text in candidate.name for text in texts)]
 
 
@@ -70,68 +71,52 @@ def fittings(description, model):
     """Double fittings in each group of joints that occurs and can break."""
     groups, types = description.data["joints"], description.data["joint_types"]
     kinds = {joint.kind for joint in model.joints if math.isfinite(joint.strength)}
-    return [Candidate(f"double_{name}", f"double fittings: {name.replace('_', ' ')}", {"set": _doubled(name, group)})
+    return [Candidate(f"double_{name}", f"double fittings: {name.replace('_', ' ')}",
+                      HouseChanges(set=_doubled(name, group)))
             for name, group in groups.items()
             if group["kind"] in kinds and math.isfinite(types[group["type"]]["strength"])]
 
 
 def _doubled(name, group):
-    """Value of the column `set`: twice the number of fittings, and the strength where the group has its own."""
-    strength = "" if group.get("strength") is None else f";joints.{name}.strength={2 * group['strength']:g}"
-    return f"joints.{name}.number={2 * group.get('number', 1):g}{strength}"
+    """Settings: twice the number of fittings, and the strength where the group has its own."""
+    return tuple(f"joints.{name}.{key}={2 * group[key]:g}" for key in ("number", "strength") if group[key] is not None)
 
 
 def in_bays(model, names):
     """A measure for each brace or wall. names: in the order of free_bays"""
-    return [Candidate(name, bay_text(model, name), {"braces": name}) for name in names]
+    return [Candidate(name, bay_text(model, BayName.read(name)), HouseChanges(braces=(name,))) for name in names]
 
 
 def in_walls(model, names):
     """A measure for each line of columns in a storey, 'main.brace1.EW.y0': all its free bays at once."""
     lines = {}
     for name in names:
-        lines.setdefault(bay_line(name), []).append(name)
-    return [Candidate(line, line_text(model, bays[0], len(bays)), {"braces": ";".join(bays)})
+        lines.setdefault(BayName.read(name).line, []).append(name)
+    return [Candidate(line, line_text(model, BayName.read(bays[0]), len(bays)), HouseChanges(braces=tuple(bays)))
             for line, bays in lines.items()]
 
 
-def bay_line(name):
-    """'main.brace1.EW.y0' of 'main.brace1.EW.y0.3-4': the name without its bay, whose nodes may be fractions."""
-    start, end = bay_parts(name)[4:]
-    return name.removesuffix(f".{SHEATHING}").removesuffix(f".{start:g}-{end:g}")
-
-
-def bay_text(model, name):
+def bay_text(model, bay):
     """'brace: main, storey 1, south wall, 3.2 m east': place of the bay's centre; 'plywood wall: ...'."""
-    xs, ys = bay_ends(model, name)
-    along = bay_parts(name)[2]
-    return (f"{line_text(model, name)}, {sum(xs if along == 'x' else ys) / 2:.1f} m"
-            f" {'east' if along == 'x' else 'north'}")
+    xs, ys = bay_ends(model, bay)
+    along, direction = (xs, "east") if bay.along == "x" else (ys, "north")
+    return f"{line_text(model, bay)}, {sum(along) / 2:.1f} m {direction}"
 
 
-def line_text(model, name, bays=1):
+def line_text(model, bay, bays=1):
     """'brace: main, storey 1, south wall' of a brace or wall; 'braces in 4 bays: ...' of several in one line."""
-    structure, storey, along, *_ = bay_parts(name)
-    measure = f"{SHEATHING} wall" if wall_parts(name) else "brace"
-    number = f"s in {bays} bays" if bays > 1 else ""
-    xs, ys = bay_ends(model, name)
-    at = ys[0] if along == "x" else xs[0]
-    lines = [column.solid.centroid[1 - "xy".index(along)] for column in model.of_kind("column", group=structure)]
-    low, high = ("south", "north") if along == "x" else ("west", "east")
+    measure, number = f"{bay.type} wall" if bay.type else "brace", f"s in {bays} bays" if bays > 1 else ""
+    across = 1 if bay.along == "x" else 0
+    at = bay_ends(model, bay)[across][0]
+    lines = [column.solid.centroid[across] for column in model.of_kind("column", group=bay.structure)]
+    low, high = ("south", "north") if bay.along == "x" else ("west", "east")
     side = (low if at < min(lines) + 0.01 else high if at > max(lines) - 0.01
-            else f"inner {'E-W' if along == 'x' else 'N-S'}")
-    return f"{measure}{number}: {structure}, storey {storey}, {side} wall"
+            else f"inner {'E-W' if bay.along == 'x' else 'N-S'}")
+    return f"{measure}{number}: {bay.structure}, storey {bay.storey}, {side} wall"
 
 
-def bay_ends(model, name):
-    """((x, x), (y, y)) [m] of the centres of the columns of a bay 'main.brace1.EW.y0.3-4'."""
-    structure, storey, along, at, *ends = bay_parts(name)
-    nodes = [(node, at) if along == "x" else (at, node) for node in ends]
-    centres = [model.element(f"{structure}.column{storey}.x{x:g}y{y:g}").solid.centroid for x, y in nodes]
+def bay_ends(model, bay):
+    """((x, x), (y, y)) [m] of the centres of the columns of a bay."""
+    nodes = [(node, bay.at) if bay.along == "x" else (bay.at, node) for node in (bay.start, bay.end)]
+    centres = [model.element(f"{bay.structure}.column{bay.storey}.x{x:g}y{y:g}").solid.centroid for x, y in nodes]
     return [centre[0] for centre in centres], [centre[1] for centre in centres]
-
-
-def bay_parts(name):
-    """(structure, storey, 'x' or 'y', node of the line, one end, other end [grid nodes]) of a brace or a wall."""
-    wall = wall_parts(name)
-    return wall[:-1] if wall else brace_parts(name)

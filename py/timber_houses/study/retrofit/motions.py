@@ -21,14 +21,15 @@ ENDINGS = (*(pattern for _, pattern, _ in SUFFIXES), r"[-_.](?:ns|ew|ud)\.(?:csv
 RECORD_FILES = (".ew", ".ns", ".ud", ".ew2", ".ns2", ".ud2", ".at2", ".csv", ".acc")
 
 
-def seeds(count, target=None):
-    """[(name, {column: text})] of synthetic motions 1 ... count. target: {'scale' | 'pga' | 'intensity': number}"""
-    window = {"start": f"{START:g}", "end": f"{END:g}"}
-    return [(f"seed{seed}", {"seed": str(seed), **window, **_text(target)}) for seed in range(1, count + 1)]
+def seeds(count, target=None, end=END):
+    """[(name, {option: value})] of synthetic motions 1 ... count up to `end` [s]. target: {'scale' | 'pga' |
+    'intensity': number}"""
+    return [(f"seed{seed}", {"seed": seed, "start": START, "end": end, **(target or {})})
+            for seed in range(1, count + 1)]
 
 
 def records(folder, target=None, units=None):
-    """[(name, {column: text})] of the records in a folder, cut to their strong shaking. units: if files state none"""
+    """[(name, {option: value})] of the records in a folder, cut to their strong shaking. units: if files state none"""
     folder = Path(folder).resolve()
     if not folder.is_dir():
         raise RunError(f"{folder}: no such folder of records")
@@ -38,7 +39,7 @@ def records(folder, target=None, units=None):
         raise RunError(f"{folder}: no records; files must end in {', '.join(RECORD_FILES)}")
     named = dict(_record(prefix, list(paths)) for prefix, paths in groupby(sorted(files, key=_prefix), _prefix))
     stated = {"units": units} if units else {}
-    return [(name, {"record": record, **stated, **window(record, units), **_text(target)})
+    return [(name, {"record": record, **stated, **window(record, units), **(target or {})})
             for name, record in named.items()]
 
 
@@ -74,9 +75,5 @@ def window(record, units=None):
     begin = onset(motion)
     if begin is None:
         raise RecordError(f"{record}: no shaking")
-    return {"start": f"{max(0.0, begin - LEAD):.2f}",
-            "end": f"{min(motion.duration, begin + significant_duration(motion) + TAIL):.2f}"}
-
-
-def _text(target):
-    return {column: f"{value:g}" for column, value in (target or {}).items()}
+    return {"start": round(max(0.0, begin - LEAD), 2),
+            "end": round(min(motion.duration, begin + significant_duration(motion) + TAIL), 2)}

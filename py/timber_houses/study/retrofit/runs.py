@@ -4,19 +4,16 @@ import math
 from dataclasses import dataclass
 from pathlib import Path
 
-from ...base.atomic_write import write_text
 from ...base.errors import RunError
 from ...base.processors import processors
-from ...base.table import csv_text
+from ...run.options import RunOptions
 from ...text.english import counted
-from ..batch import read_table, run_rows, write_runs
-from ..batch.table import COLUMNS
-from ..batch.tasks import check_rows, task_of
+from ..batch import Row, check_rows, run_rows, write_runs
+from ..batch.tasks import task_of
 from ..driver import about
 from .candidates import AS_IT_IS
 from .race import Entry, cost, rounds, select
 
-TABLE = "table.csv"
 PILOTS = 6
 """Number of motions under which the house as it is runs for the choice of their strength. [-]"""
 WEAKEST, STRONGEST = 1 / 16, 16
@@ -27,13 +24,12 @@ FINEST = 1.2
 
 @dataclass
 class Ranking:
-    """A ranking in a folder. motions: [(name, cells)], the first for selection; same: cells of all; scripts: folder"""
+    """A ranking in a folder. motions: [(name, {option: value})], the first for selection; same: options of all"""
 
     folder: Path
     candidates: list
     motions: list
     same: dict
-    scripts: Path
     jobs: int | None = None
 
     def __post_init__(self):
@@ -72,7 +68,7 @@ class Ranking:
             between = math.sqrt(low * high) if low and high else 2 * low if low else high / 2
             scale = float(f"{min(max(between, WEAKEST), STRONGEST):.3g}")
         scale = min(shares, key=lambda one: (abs(shares[one] - 0.5), one if shares[one] > 0.5 else -one))
-        self.motions = [(name, {**cells, "scale": f"{scale:g}"}) for name, cells in self.motions]
+        self.motions = [(name, {**options, "scale": scale}) for name, options in self.motions]
         fallen = f"{shares[scale] * len(pilots):.0f} of the first {len(pilots)}"
         return (f"The motions are scaled by {scale:g}, at which {fallen} bring the house as it is down; --scale chooses"
                 " another strength.")
@@ -80,7 +76,7 @@ class Ranking:
     def _pilot(self, pilots, scale):
         """Number of pilots, scaled, under which the house as it is collapses."""
         house = Entry(AS_IT_IS, {})
-        self._run([(house, (name, {**cells, "scale": f"{scale:g}"})) for name, cells in pilots], house)
+        self._run([(house, (name, {**options, "scale": scale})) for name, options in pilots], house)
         return sum(bool(run["collapsed"]) for run in house.runs.values())
 
     def run(self, report=print):
@@ -101,7 +97,7 @@ class Ranking:
         """Run [(Entry, motion)] and store the runs; returns the rows of runs.csv. house: Entry of the house as it is.
         Raises RunError after a run that was stopped."""
         rows = self._rows([(entry.candidate, motion) for entry, motion in pairs])
-        run_rows(rows, self.folder, self.scripts, self.jobs)
+        run_rows(rows, self.folder, self.jobs)
         runs = write_runs(rows, self.folder)
         for (entry, (motion, _)), run in zip(pairs, runs):
             if run["status"] == "unfinished":
@@ -116,18 +112,17 @@ class Ranking:
         return runs
 
     def _rows(self, pairs):
-        """Rows of a batch table for [(candidate, motion)], written to the folder."""
-        cells = [{**self.same, **motion, **candidate.changes, "description": f"{candidate.name}_{name}"}
-                 for candidate, (name, motion) in pairs]
-        columns = [column for column in (*COLUMNS, "description") if any(column in row for row in cells)]
-        write_text(self.folder / TABLE,
-                   csv_text(columns, [[row.get(column, "") for column in columns] for row in cells]))
-        return read_table(self.folder / TABLE)
+        """Rows of [(Candidate, motion)]."""
+        return [self._row(candidate, *motion) for candidate, motion in pairs]
+
+    def _row(self, candidate, name, motion):
+        description = f"{candidate.name}_{name}"
+        options = RunOptions(quake=True, **{**self.same, **motion, **candidate.options})
+        return Row(options, candidate.changes, description, description)
 
     def task(self, entry, motion):
         """Task of a run of an Entry under a motion's name, for its folder."""
-        cells = next(pair for pair in self.motions if pair[0] == motion)
-        return task_of(self._rows([(entry.candidate, cells)])[0], self.folder)
+        return task_of(self._row(entry.candidate, motion, dict(self.motions)[motion]), self.folder)
 
 
 def progress(runs, left, jobs):
