@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Make the README's pictures from finished runs: make_gallery.py [results] [--out docs]. Needs no YADE.
 
-Reads the folders modelA_snow, modelA_quake, modelC_quake, modelC2_snow, A_quake_snow and C_quake_snow in results; the
+Reads the folders modelA_quake, modelC_quake, modelC2_snow, A_quake_snow and C_quake_snow in results; the
 last two are runs of scripts/house.py A (or C) --quake --snow 1 --out results/A_quake_snow. Writes DIR/modelC2_snow.png,
 DIR/l_house.png and DIR/gallery/*.png, and two films of houses A and C under the same load, DIR/gallery/film.webp and
 film_snow.webp; the picture of the player needs Chromium.
@@ -28,7 +28,6 @@ from timber_houses.pictures import curves, drawings, figures, film, motion_sheet
 from timber_houses.pictures.views import FRONT, SIDE
 from timber_houses.recording import frames
 
-SHEETS = ("modelA_snow", "modelA_quake", "modelC2_snow")
 HISTORY = "modelA_quake"
 LEAD = "modelC2_snow"
 HOUSE, EXAMPLE = "C2", "l_house"
@@ -106,9 +105,8 @@ def make(results, out):
     """All pictures; returns their paths."""
     gallery = out / "gallery"
     gallery.mkdir(parents=True, exist_ok=True)
-    runs = {name: ended(results / name) for name in {*SHEETS, *sum(FILMS.values(), ()), HISTORY, LEAD}}
-    written = [write(gallery / f"{name}.png", sheets.sheet(runs[name], telling_view(runs[name]), sheets.SCREEN))
-               for name in SHEETS]
+    runs = {name: ended(results / name) for name in {*sum(FILMS.values(), ()), HISTORY, LEAD}}
+    written = [write(gallery / f"{LEAD}.png", sheets.sheet(runs[LEAD], telling_view(runs[LEAD]), sheets.SCREEN))]
     written.append(write(gallery / "history.png", curves.page(runs[HISTORY], DPI)))
     written.append(write(gallery / f"house{HOUSE}.png", drawings.page(build_house(load_house(HOUSE)), DPI)))
     written.append(write(out / f"{EXAMPLE}.png", drawings.page(build_house(load_house(EXAMPLE)), DPI)))

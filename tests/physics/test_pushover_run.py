@@ -60,22 +60,36 @@ def test_slow_push(tmp_path):
     assert abs(slope / (curve[1, 1] / curve[0, 1]) - 1) < 0.03
 
 
-def test_free_vibration(tmp_path):
-    """Pushed slowly and released, the box swings with the secant period of its amplitude, within 4 %.
+TWO_STOREYS = (BOX.replace("{roof: 2.0}", "{roof: 2.0, floor: 2.0}")
+               .replace("      - {layer: roof", "      - {layer: floor, thickness: 0.12}\n"
+                        "      - {layer: columns, height: 2.7}\n"
+                        "      - {layer: beams, height: 0.24, width: 0.12}\n      - {layer: roof")
+               .replace("from: 0, to: 2, type: plywood}", "from: 0, to: 3, type: plywood, storeys: 1}\n"
+                        "      - {along: x, at: [0, 3], from: 0, to: 2, type: plywood, storeys: 2}")
+               .replace("from: 0, to: 1, type: plywood}", "from: 0, to: 3, type: plywood}"))
+"""The walls of both storeys have about the same drift in the lowest mode."""
 
-    Observed: 3 % shorter, since a constant force like that of rocking columns has a period 10 % below its secant one.
+
+@pytest.mark.parametrize("house, push", ((BOX, 12.3), (TWO_STOREYS, 8.4)), ids=["one storey", "two storeys"])
+def test_free_vibration(tmp_path, house, push):
+    """Pushed slowly to about 1/110 [m/s2] and released, houses of one and two storeys swing with the secant period of
+    the mean amplitude of a whole swing, the first one at 1/131 and 1/119, within 4 %.
+
+    Observed: 2 % longer, since the sheets have yielded in the push.
     """
-    (tmp_path / "box.yaml").write_text(BOX)
-    release, end, step = 3.0, 5.0, 0.01
+    (tmp_path / "box.yaml").write_text(house)
+    release, end, step = 2.5, 4.0, 0.01
     time = np.arange(0, end + step / 2, step)
-    east = 5.0 * np.clip(time - 1, 0, 1) * (time < release)
+    east = push * np.clip(time - 1, 0, 1) * (time < release)
     th.run(tmp_path / "box.yaml", motion=GroundMotion(step, np.column_stack([east, 0 * east, 0 * east])), duration=end,
            out=tmp_path / "out", no_frames=True, quiet=True)
     model, history = build_house(load_house(tmp_path / "box.yaml")), th.load_run(tmp_path / "out").history
     curves, drift = pushover(model, "main"), history.drift(1, "ew")
     passes = np.flatnonzero((np.diff(np.sign(drift)) != 0) & (history.time[:-1] > release))
     times = history.time[passes] - drift[passes] * np.diff(history.time)[passes] / np.diff(drift)[passes]
-    for k in range(4):
-        amplitude = np.abs(drift[passes[k]:passes[k + 1]]).max()
-        expected = secant_periods(model, "main", curves, amplitude)["ew"]
-        assert amplitude > 1 / 500 and 2 * (times[k + 1] - times[k]) == pytest.approx(expected, rel=0.04)
+    peaks = [np.mean([np.abs(history.drift(storey, "ew")[a:b]).max() for storey in history.storeys])
+             for a, b in zip(passes, passes[1:])]
+    assert 1 / 150 < (peaks[0] + peaks[1]) / 2 < 1 / 110
+    for k in range(3):
+        expected = secant_periods(model, "main", curves, (peaks[k] + peaks[k + 1]) / 2)["ew"]
+        assert times[k + 2] - times[k] == pytest.approx(expected, rel=0.04)

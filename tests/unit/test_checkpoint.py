@@ -126,11 +126,24 @@ def test_files_that_decide_results(package, name, decides):
     assert (identities.of_files(identities.decisive_files(folder)) != before) is decides
 
 
+def test_samples_of_a_finished_run_are_in_its_checkpoint(tmp_path):
+    """Scene and samples are read back, and YADE still opens the file; one changed byte of the samples is found."""
+    O.reset()
+    path, samples = tmp_path / "a.yade", b"S\n\0" * 9
+    checkpoint.save(path, {"name": "x"}, {"wall_s": 1.0})
+    checkpoint.enclose(path, samples)
+    assert checkpoint.load(path, {"name": "x"}) == ({"wall_s": 1.0}, samples)
+    O.load(str(path), quiet=True)
+    path.write_bytes(path.read_bytes().replace(samples, b"T" + samples[1:]))
+    with pytest.raises(RunError, match="damaged"):
+        checkpoint.load(path, {"name": "x"})
+
+
 def test_another_users_checkpoint_is_not_loaded(tmp_path, monkeypatch):
     """It could harm the process."""
     O.reset()
     checkpoint.save(tmp_path / "a.yade", {"name": "x"}, {"wall_s": 1.0})
-    assert checkpoint.load(tmp_path / "a.yade", {"name": "x"}) == {"wall_s": 1.0}
+    assert checkpoint.load(tmp_path / "a.yade", {"name": "x"}) == ({"wall_s": 1.0}, b"")
     owner = (tmp_path / "a.yade").stat().st_uid
     monkeypatch.setattr(checkpoint.os, "geteuid", lambda: owner + 1)
     with pytest.raises(RunError, match="another user; copy it"):

@@ -219,7 +219,7 @@ def test_the_japanese_result_has_all_warnings():
                            }, events=[Event(12.0, ColumnsLost(1, 90)),
                                       Event(13.5, SnowFallen("", "west", "roof"))])
     parts = ("全壊（最後に傾いている）", "なお ±1/50（南北）で揺れている", "柱 90 本のうち1 本が倒れた、3 本が外れた（12.0 秒から）", "雪は 13.5 秒から落下",
-             "強い揺れ（18.8 秒）の前で計算を終了", "玄関は補修可能（最大層間変形角 1/1000 未満）")
+             "強い揺れ（18.8 秒）の前に計算を終了", "玄関は補修可能（最大層間変形角 1/1000 未満）")
     assert [part for part in parts if part not in japanese.result(found)] == [], japanese.result(found)
 
 

@@ -296,6 +296,7 @@ def test_killed_and_resumed(tmp_path, shove, straight):
     victim.wait()
     assert not (tmp_path / "summary.json").exists()
     assert run("modelB1_quake", *options(0.35), "--resume").returncode == 0  # ends early, goes on later
+    assert not (tmp_path / "samples.log").exists()
     done = run("modelB1_quake", *options(0.6), "--resume")
     assert done.returncode == 0, done.stderr
     assert_same_results(straight, tmp_path)

@@ -1,12 +1,15 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Town files: places, delays, rotation, misuse. Needs no YADE."""
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from summaries import sample_summary
+from test_house_plan import house_file
 from timber_houses.house import HouseError, build_house, load_house, load_town
-from timber_houses.house.town import Lot, check_places
+from timber_houses.house.town import Lot, check_places, parts
 from timber_houses.motion import GroundMotion
 from timber_houses.motion.processing import in_axes
 from timber_houses.recording.events import Event, SnowFallen, StructureFallen, Tilt
@@ -85,11 +88,32 @@ def test_the_middle_of_the_plan_is_at_the_place():
     model = build_house(load_house("l_house"))
     for rotation in (0, 90, 37):
         lot = Lot("", "l_house", 5, -7, rotation)
-        assert lot.outline(model).mean(0) == pytest.approx([5, -7])
-        points = np.concatenate([e.vertices for e in model.elements if e.kind != "ground"
-                                 ]) @ lot.axes.T + lot.origin(model)
-        assert (points[:, :2].min(0) > lot.outline(model).min(0) - 1e-9).all()  # rounding
-        assert (points[:, :2].max(0) < lot.outline(model).max(0) + 1e-9).all()
+        points = np.concatenate([e.vertices for e in model.elements if e.kind != "ground"])
+        middle = (points.min(0) + points.max(0))[:2] / 2
+        assert (lot.axes @ [*middle, 0] + lot.origin(model))[:2] == pytest.approx([5, -7], abs=1e-5)  # plan.ROUNDING
+        placed, drawn = points @ lot.axes.T + lot.origin(model), np.concatenate(lot.outlines(model))
+        assert placed[:, :2].min(0) == pytest.approx(drawn.min(0), abs=1e-5)
+        assert placed[:, :2].max(0) == pytest.approx(drawn.max(0), abs=1e-5)
+
+
+def test_a_house_in_the_corner_of_an_l(tmp_path):
+    """L of 8 x 7 m, roof projecting by 0.06 m: its parts leave free the corner from (4.06, 4.06) to (8.06, 7.06), where
+    a post of 1 m stands, but not 10 cm nearer to the middle. The middle of the plan, (4, 3.5), is at x, y."""
+    (tmp_path / "l.yaml").write_text(house_file("L"))
+    model = build_house(load_house(tmp_path / "l.yaml"))
+    largest = sorted(np.ptp(part, axis=0).prod() for part in parts(model))[-2:]
+    assert largest == pytest.approx([4.12 * 3.06, 8.12 * 4.06])
+    corner, lot = square(1.0), Lot("a", "l.yaml", 0, 0)
+    check_places([(lot, model), (Lot("b", "post", 0.06 + 0.5 + 0.01, 0.56 + 0.5 + 0.01), corner)])
+    for x, y in ((0.47, 1.07), (0.57, 0.97)):
+        with pytest.raises(HouseError, match="overlaps that of lot a"):
+            check_places([(lot, model), (Lot("b", "post", x, y), corner)])
+
+
+def square(side):
+    """A HouseModel's stand-in, one box."""
+    corners = np.array([(x, y, z) for x in (0, side) for y in (0, side) for z in (0, 1)], float)
+    return SimpleNamespace(elements=[SimpleNamespace(kind="column", vertices=corners)])
 
 
 def test_overlapping_houses_are_refused(town):
@@ -99,7 +123,7 @@ def test_overlapping_houses_are_refused(town):
         return Lot("b", "A", x, 0, rotation, where="town.yaml:3: town.lots.b.house"), model
 
     first = (Lot("a", "A", 0, 0), model)
-    width = np.ptp(first[0].outline(model)[:, 0])
+    width = np.ptp(np.concatenate(first[0].outlines(model))[:, 0])
     check_places([first, place(width + 0.01)])
     with pytest.raises(HouseError, match="^town.yaml:3: town.lots.b: the house overlaps that of lot a"):
         check_places([first, place(width - 0.01)])

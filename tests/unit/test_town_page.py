@@ -26,7 +26,7 @@ def town(count=None):
         run.summary = run.summary.changed(lot=name, verdict=verdict)
         square = [[x - 3.0, y - 2.0], [x + 3.0, y - 2.0], [x + 3.0, y + 2.0], [x - 3.0, y + 2.0]]
         sentences = {"en": english.sentence(run.summary), "ja": japanese.result(run.summary)}
-        results[name] = (run.summary, np.eye(3), LotResult(name, "A", verdict, square, sentences))
+        results[name] = (run.summary, np.eye(3), LotResult(name, "A", verdict, [square], sentences))
         lots.append((name, np.eye(3), np.array([x, y, 0.0]), run))
     return town_frames(town_summary("Harbour", results, None), lots)
 

@@ -7,9 +7,11 @@ from pathlib import Path
 import pytest
 from summaries import sample_summary
 from timber_houses.base.errors import RunError
+from timber_houses.house.layout import WALL_LEVELS
 from timber_houses.recording.summary_parts import OtherWalls, Walls
 from timber_houses.run import cli
 from timber_houses.run.plan import planned
+from timber_houses.text import japanese
 from timber_houses.text.english import other_walls
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -37,6 +39,8 @@ def test_sentence_names_the_other_verdict_where_they_differ():
     for verdict in ("collapsed", "repairable"):
         walls = Walls("mean", OtherWalls("design", verdict, {}))
         texts.append(other_walls(sample_summary(peak_drift={"storey1": {"ns": 0.02, "ew": 0.0}}, walls=walls)))
+    assert japanese.WALL_LEVELS.keys() == {*WALL_LEVELS} and "耐力壁の強さを設計値とすると倒壊" in japanese.result(
+        sample_summary(walls=Walls("mean", OtherWalls("design", "collapsed", {}))))
     assert [*texts, other_walls(sample_summary())] == ["verdict with design walls: collapsed", "", ""]
 
 

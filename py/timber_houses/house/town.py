@@ -2,9 +2,11 @@
 """Town files: houses at places under one ground motion, which reaches them as a wave."""
 import math
 from dataclasses import dataclass
+from itertools import product
 from pathlib import Path
 
 import numpy as np
+from scipy.spatial import ConvexHull
 
 from ..base.errors import one_line
 from ..base.input_file import is_file, shown
@@ -15,6 +17,7 @@ from .limits import MAX_LOTS, MAX_NODES
 from .loader import require_house_file, text_of
 from .lots import read_lots
 from .parser import Table, parse_table
+from .plan import ROUNDING
 from .schema import MapOf, Number, Record, fail
 
 LOT_FILES = (".csv", ".geojson", ".json")
@@ -50,22 +53,31 @@ class Lot:
         c, s = turn[quarters % 4] if rest == 0 else (math.cos(angle), math.sin(angle))
         return np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]], float)
 
-    def outline(self, model):
-        """(4, 2) corners in the town of the rectangle around the plan of its HouseModel [m]."""
-        low, high = plan(model)
-        corners = np.array([[low[0], low[1]], [high[0], low[1]], [high[0], high[1]], [low[0], high[1]]])
-        return (corners - (low + high) / 2) @ self.axes[:2, :2].T + (self.x, self.y)
+    def outlines(self, model):
+        """[(n, 2) corners in the town] of the convex parts of the plan of its HouseModel [m]."""
+        origin = self.origin(model)[:2]
+        return [part @ self.axes[:2, :2].T + origin for part in parts(model)]
 
     def origin(self, model):
-        """(3,) place of the origin of its HouseModel in the town [m]."""
-        low, high = plan(model)
-        return np.array([self.x, self.y, 0]) - self.axes @ [*(low + high) / 2, 0]
+        """(3,) place of the origin of its HouseModel in the town [m]: the middle of the plan is at x, y."""
+        points = np.concatenate(parts(model))
+        return np.array([self.x, self.y, 0]) - self.axes @ [*(points.min(0) + points.max(0)) / 2, 0]
 
 
-def plan(model):
-    """(lowest, highest) x and y of a HouseModel without its ground [m]."""
-    points = np.concatenate([e.vertices for e in model.elements if e.kind != "ground"])[:, :2]
-    return points.min(0), points.max(0)
+def parts(model):
+    """[(n, 2) corners, counter-clockwise] of the elements of a HouseModel in plan, without its ground and what lies
+    within another one. [m]"""
+    plans = [element.vertices[:, :2] for element in model.elements if element.kind != "ground"]
+    found: list = []
+    for hull in sorted(map(ConvexHull, plans), key=lambda hull: -hull.volume):  # volume: in a plane, the area
+        corners = hull.points[hull.vertices]
+        if not any(_within(corners, other) for other in found):
+            found.append(hull)
+    return [hull.points[hull.vertices] for hull in found]
+
+
+def _within(points, hull):
+    return (points @ hull.equations[:, :2].T + hull.equations[:, 2] <= ROUNDING).all()
 
 
 @dataclass(frozen=True)
@@ -122,20 +134,23 @@ def _lot(name, entry, path):
 
 def check_places(placed):
     """Raise HouseError when two houses overlap in plan. placed: list of (Lot, HouseModel)"""
-    outlines = [(lot, lot.outline(model)) for lot, model in placed]
-    reach = [(corners.mean(0), np.linalg.norm(corners - corners.mean(0), axis=1).max()) for _, corners in outlines]
-    for k, (lot, corners) in enumerate(outlines):
-        for (other, others), (centre, radius) in zip(outlines[:k], reach[:k]):
-            near = np.linalg.norm(reach[k][0] - centre) < reach[k][1] + radius
-            if near and _overlap(corners, others):
+    outlines = [(lot, lot.outlines(model)) for lot, model in placed]
+    bounds = [(np.min(corners, axis=0), np.max(corners, axis=0)) for corners in
+              (np.concatenate(outline) for _, outline in outlines)]
+    for k, (lot, outline) in enumerate(outlines):
+        for (other, others), (low, high) in zip(outlines[:k], bounds):
+            near = (bounds[k][0] < high).all() and (low < bounds[k][1]).all()
+            if near and any(_overlap(a, b) for a, b in product(outline, others)):
                 raise HouseError(f"{lot.where.removesuffix('.house')}: the house overlaps that of lot {other.name}:"
                                  " move it by x or y, or turn it")
 
 
 def _overlap(a, b):
-    """Whether two rectangles (4, 2) overlap: no direction of their sides separates them."""
+    """Whether two convex polygons (n, 2) overlap: no normal of their sides separates them."""
     for corners in (a, b):
-        for side in (corners[1] - corners[0], corners[2] - corners[1]):
-            if (a @ side).max() <= (b @ side).min() or (b @ side).max() <= (a @ side).min():
-                return False
+        sides = np.roll(corners, -1, axis=0) - corners
+        normals = np.column_stack([sides[:, 1], -sides[:, 0]]).T
+        one, two = a @ normals, b @ normals
+        if ((one.max(0) <= two.min(0)) | (two.max(0) <= one.min(0))).any():
+            return False
     return True

@@ -15,8 +15,8 @@ from .style import default_style
 from .views import FRONT, SIDE
 
 DPI = 170
-SHOTS = Format(7.6, 5.6, DPI, 6)
-"""Six key times across an A4 page."""
+SHOTS = Format(7.6, 4.0, DPI, 6)
+"""Six key times across an A4 page, in the height that its text leaves, and a heading that is cut off."""
 PERIODS = np.geomspace(0.05, 5.0, 80)
 EDGE = 0.3
 """Between the outermost columns and the edge of a plan. [m]"""

@@ -74,7 +74,7 @@ def layout(form, count, box, result):
     """The Layout that draws `count` panels of a box [m] largest, with few places empty. result: subtitle"""
     width, height = box[1] - box[0], box[3] - box[2]
     choices = []
-    for columns in range(1, min(3, count) + 1):
+    for columns in range(1, count + 1):
         rows = -(-count // columns)
         across = (form.width - 2 * MARGIN - (columns - 1) * GAP) / columns / width
         up = ((form.height - heading_height(form.width, result) - FOOT) / rows - CAPTION - GAP) / height

@@ -36,9 +36,10 @@ def figure(frames):
     whole = head + height + FOOT
     ax = drawn.add_axes((0.02, FOOT / whole, 0.96, height / whole))
     for lot in summary.lots:
-        ax.add_patch(Polygon(lot.outline, closed=True, facecolor=VERDICTS[lot.verdict], edgecolor="#333333", lw=0.8))
-        middle, low = np.mean(lot.outline, axis=0)[0], np.min(lot.outline, axis=0)[1]
-        ax.annotate(drawable(lot.name, 40), (middle, low), (0, -3), textcoords="offset points", ha="center", va="top",
+        for style in ({"edgecolor": "#333333", "lw": 1.6}, {"lw": 0}):  # borders, then what hides those between parts
+            for corners in lot.outlines:
+                ax.add_patch(Polygon(corners, facecolor=VERDICTS[lot.verdict], **style))
+        ax.annotate(drawable(lot.name, 40), _label(lot), (0, -3), textcoords="offset points", ha="center", va="top",
                     fontsize=9)
     ax.set(xlim=(left, right), ylim=(bottom, top), aspect="equal", xticks=[], yticks=[])
     counts = [Patch(facecolor=VERDICTS[state], label=f"{state}: {summary.verdicts.count(state)}")
@@ -61,12 +62,23 @@ def _scale(ax, limits):
 
 def box(lots):
     """(left, right, bottom, top) of the map [m]."""
-    low, high = np.min([np.min(lot.outline, axis=0) for lot in lots], axis=0), np.max(
-        [np.max(lot.outline, axis=0) for lot in lots], axis=0)
+    points = np.concatenate([_corners(lot) for lot in lots])
+    low, high = points.min(0), points.max(0)
     lacking = np.maximum(LABEL_ROOM - (high - low), 0) / 2
     low, high = low - BORDER - lacking, high + BORDER + lacking
     room = 0.05 * (high - low)[1]  # for names below the southern houses, for the scale above the northern ones
     return low[0], high[0], low[1] - room, high[1] + room
+
+
+def _corners(lot):
+    """(n, 2) corners of the parts of a LotResult [m]."""
+    return np.concatenate([np.array(part) for part in lot.outlines])
+
+
+def _label(lot):
+    """Place of its name: below the middle of the house [m]."""
+    low, high = _corners(lot).min(0), _corners(lot).max(0)
+    return (low[0] + high[0]) / 2, low[1]
 
 
 def page(frames):
@@ -80,8 +92,8 @@ def page(frames):
 
     lots = [{"name": lot.name, "house": lot.house, "result": lot.result, "color": VERDICTS[lot.verdict],
              "verdict": {"en": lot.verdict, "ja": japanese.OUTCOMES[lot.verdict]},
-             "points": " ".join(",".join(place(*corner)) for corner in lot.outline),
-             "label": place(np.mean(lot.outline, axis=0)[0], np.min(lot.outline, axis=0)[1]),
+             "parts": [" ".join(",".join(place(*corner)) for corner in part) for part in lot.outlines],
+             "label": place(*_label(lot)),
              "pages": {language: f"lots/{lot.name}/{name}" for language, name in OWNER.items()}}
             for lot in summary.lots]
     return html("town.html", title=frames.title, sentences=[english.sentence(summary), japanese.result(summary)],

@@ -19,12 +19,12 @@ ANEW = "repeat the run with this version of the package"
 
 @dataclass(frozen=True)
 class LotResult:
-    """Of a lot of a town. outline: corners of its house's plan [m]; result: {language: sentence}"""
+    """Of a lot of a town. outlines: corners of the parts of its house's plan [m]; result: {language: sentence}"""
 
     name: str
     house: str
     verdict: str
-    outline: list[list[float]]
+    outlines: list[list[list[float]]]
     result: dict[str, str]
 
 

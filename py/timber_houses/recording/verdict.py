@@ -47,6 +47,7 @@ LIMITS = (DAMAGE, SAFETY, TILT)
 """Of peak drifts."""
 LOSS = Limit(1 / 20, "limit of a total loss", "Cabinet Office of Japan, guidelines for damage certificates of houses:"
              " tilt of outer walls or columns; of the residual drift")
+"""The guidelines take the mean tilt at the four corners of storey 1 (compared: excerpt on velocities1.rssing.com)."""
 FALL = 1 / 2
 """Height by which a level of a collapsed structure has come down, over that of its storey. [-]"""
 FALLEN_ANGLE = math.radians(45)

@@ -3,7 +3,8 @@
 
 The last line is JSON: `identity` of the run, `progress` (wall time, events so far), `sha256` of all bytes before that
 line. YADE's loader stops before it, so the file also opens with `O.load`, without the monitors' earlier rows
-(samples.py). The binary format keeps every bit of every number.
+(samples.py), whose file stands before that line once the run has ended. The binary format keeps every bit of every
+number.
 
 YADE's loader creates whatever object the file names, also a PyRunner, which runs code. The binary format names each
 such class, with its namespace, before the first object of it; a file that names other classes than a run writes is
@@ -21,6 +22,7 @@ from pathlib import Path
 import yade.wrapper as yw
 from yade_timber import _class_names
 
+from ..base.atomic_write import write_bytes
 from ..base.errors import RunError, os_errors
 from ..base.files import written_from_memory
 from ..base.json_types import decode
@@ -70,25 +72,18 @@ def _save(path):
         raise OSError(number, reason) from None
 
 
+def enclose(path, content):
+    """Put the content of the file of samples into the checkpoint of a run that has ended. Raises RunError, OSError."""
+    body, _, seal = _read(path)
+    seal |= {"enclosed": len(content), "sha256": hashlib.sha256(body + content).hexdigest()}
+    write_bytes(path, body + content + b"\n" + json.dumps(seal).encode())
+
+
 def load(path, identity, kind=dict):
-    """Load the saved scene; returns `progress` as saved. kind: its type, as of json_types. Raises RunError for damage
-    or another identity.
+    """Load the saved scene; returns `progress` as saved, and the enclosed samples or b"". kind: of progress, as of
+    json_types. Raises RunError for damage or another identity.
     """
-    path = Path(path)
-    with record(path) as file:
-        if os.fstat(file.fileno()).st_uid != os.geteuid():  # YADE's loader is not safe against every forged file
-            raise RunError(f"{path}: belongs to another user; copy it if you trust its origin, or {REMEDY}")
-        with os_errors(lambda fault: f"{path}: cannot read the checkpoint: {fault}"):
-            content = file.read()
-    try:
-        body, _, line = content.rpartition(b"\n")
-        seal = json.loads(line)
-        complete = hashlib.sha256(body).hexdigest() == seal["sha256"] and isinstance(seal["identity"], dict)
-        decode(kind, seal["progress"])
-    except (ValueError, KeyError, TypeError, RecursionError):
-        complete = False
-    if not complete:
-        raise RunError(f"{path}: damaged, or not a checkpoint of this package; {REMEDY}")
+    body, samples, seal = _read(path, kind)
     _require_same(path, seal["identity"], identity)
     foreign = sorted({name.decode() for name in re.findall(rb"yade::(\w*)", body)} - CLASSES)
     if foreign:
@@ -97,7 +92,28 @@ def load(path, identity, kind=dict):
         _load(body)
     except Exception as problem:  # of Boost: written by other classes than those loaded now
         raise RunError(f"{path}: YADE cannot load it ({problem}); {REMEDY}") from None
-    return seal["progress"]
+    return seal["progress"], samples
+
+
+def _read(path, kind=dict):
+    """(scene, enclosed samples, seal). kind: type of the progress. Raises RunError for damage."""
+    path = Path(path)
+    with record(path) as file:
+        if os.fstat(file.fileno()).st_uid != os.geteuid():  # YADE's loader is not safe against every forged file
+            raise RunError(f"{path}: belongs to another user; copy it if you trust its origin, or {REMEDY}")
+        with os_errors(lambda fault: f"{path}: cannot read the checkpoint: {fault}"):
+            content = file.read()
+    try:
+        content, _, line = content.rpartition(b"\n")
+        seal = json.loads(line)
+        complete = hashlib.sha256(content).hexdigest() == seal["sha256"] and isinstance(seal["identity"], dict)
+        decode(kind, seal["progress"])
+        end = len(content) - seal.get("enclosed", 0)
+    except (ValueError, KeyError, TypeError, RecursionError):
+        complete = False
+    if not complete:
+        raise RunError(f"{path}: damaged, or not a checkpoint of this package; {REMEDY}")
+    return content[:end], content[end:], seal
 
 
 def _load(content):

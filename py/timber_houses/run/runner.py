@@ -133,14 +133,14 @@ class Run(Stoppable):
             self._build()
         else:
             self.model = self.scenario.build_model()
-        saved = checkpoint.load(self.checkpoint_path, identity(self.origin), checkpoint.Progress)
+        saved, rows = checkpoint.load(self.checkpoint_path, identity(self.origin), checkpoint.Progress)
         if O.iter >= self.steps:
             duration = f"{self.options.named('duration')} {self.scenario.duration:g}"
             raise RunError(f"{duration}: {self.checkpoint_path} is already at {O.time:g} s; give a longer duration")
         self.wall_s, self.last_saved = saved["wall_s"], O.iter
         self._observe(saved)
         with os_errors(lambda fault: f"{self.options.folder}: the run cannot be continued ({fault})"):
-            self.samples.resume(saved["samples"], checkpoint.REMEDY)
+            self.samples.resume(saved["samples"], rows, checkpoint.REMEDY)
             if self.recorder:
                 self.recorder.resume()
 
@@ -250,6 +250,9 @@ class Run(Stoppable):
             tables = quantities.tables(self.observer)
             self.summary = summary.summary(self.scenario, self.observer, tables, self.wall_s, self.origin, cut_off)
             written = self._results(tables)
+        if cut_off or O.iter >= self.steps:  # else a live run goes on
+            with explain_writing(self.options):
+                self.samples.enclose(self.checkpoint_path)
         self.options.say(sentence(self.summary))
         with os_errors(lambda fault: f"{self.options.folder}: the results are written, the pictures are not ({fault});"
                                      " scripts/show/show_run.py makes them"):

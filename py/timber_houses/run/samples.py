@@ -1,13 +1,17 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Rows of the monitors of the loaded run; those before the last checkpoint are in a file beside it."""
+"""Rows of the monitors of the loaded run; those before the last checkpoint are in a file beside it, or in the
+checkpoint itself once the run has ended."""
 from contextlib import contextmanager
 
 import numpy as np
 import yade.wrapper as yw
 from yade_timber.scene.engines import find_engine
 
+from ..base.atomic_write import remove, write_bytes
 from ..base.errors import RunError
+from ..base.record_file import MAX_SIZE, read_record
 from ..recording.append_log import AppendLog
+from . import checkpoint
 
 NAME = "samples.log"
 MONITORS = {b"H": yw.HouseMonitor, b"M": yw.StructureMonitor}
@@ -29,8 +33,19 @@ class Samples:
             engine.rows = []
         return self.log.flush()
 
-    def resume(self, size, remedy):
-        """Drop rows after the present time. size: of the file at the checkpoint. Raises OSError, RunError."""
+    def enclose(self, path):
+        """Move the file into the checkpoint at that path, and all rows into the scene. Raises OSError, RunError."""
+        if not self.log.path.exists():
+            return
+        checkpoint.enclose(path, read_record(self.log.path, limit=MAX_SIZE))
+        self._set(self._rows())
+        remove(self.log.path)
+
+    def resume(self, size, enclosed, remedy):
+        """Drop rows after the present time. size: of the file at the checkpoint, whose content may be enclosed there.
+        Raises OSError, RunError."""
+        if enclosed:
+            write_bytes(self.log.path, enclosed)
         if self.log.cut(O.time + O.dt / 2) != size:
             raise RunError(f"{self.log.path}: missing, damaged or older than the checkpoint at {O.time:g} s; {remedy}")
         for kind, time, content in self.log.records():
@@ -40,14 +55,22 @@ class Samples:
     @contextmanager
     def restored(self):
         """Context in which the scene's monitors have all rows, for the results."""
-        earlier = {kind: [] for kind in MONITORS}
-        for kind, _, content in self.log.records():
-            earlier[kind].append(np.frombuffer(content))
         latest = {kind: find_engine(monitor).rows for kind, monitor in MONITORS.items()}
-        for kind, monitor in MONITORS.items():
-            find_engine(monitor).rows = np.concatenate([*earlier[kind], latest[kind]]).tolist()
         try:
+            self._set(self._rows())
             yield
         finally:
-            for kind, monitor in MONITORS.items():
-                find_engine(monitor).rows = latest[kind]
+            self._set(latest)
+
+    def _rows(self):
+        """All rows by kind."""
+        parts = {kind: [] for kind in MONITORS}
+        for kind, _, content in self.log.records():
+            parts[kind].append(np.frombuffer(content))
+        return {kind: np.concatenate([*earlier, find_engine(MONITORS[kind]).rows]).tolist()
+                for kind, earlier in parts.items()}
+
+    @staticmethod
+    def _set(rows):
+        for kind, monitor in MONITORS.items():
+            find_engine(monitor).rows = rows[kind]

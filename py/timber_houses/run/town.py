@@ -172,9 +172,9 @@ COLUMNS = ("lot", "house", "x [m]", "y [m]", "rotation [degrees]", "snow [m]", "
 
 def result_of(lot, run):
     """LotResult of a Lot and its Run."""
-    outline = lot.outline(run.model).round(3).tolist()
+    outlines = [part.round(3).tolist() for part in lot.outlines(run.model)]
     result = {"en": sentence(run.summary), "ja": japanese.result(run.summary)}
-    return LotResult(lot.name, run.summary.model, run.summary.verdict, outline, result)
+    return LotResult(lot.name, run.summary.model, run.summary.verdict, outlines, result)
 
 
 @contextmanager

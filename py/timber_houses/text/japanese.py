@@ -12,6 +12,7 @@ ORIGIN = {"none": "地動なし", "motion": "地動", "record": "記録", "inten
 """Words of pictures/provenance.py."""
 OUTCOMES = {"undamaged": "無被害", "repairable": "補修可能", "unsafe": "危険", "total loss": "全壊",
             "collapsed": "倒壊", "failed": "計算失敗"}
+WALL_LEVELS = {"design": "設計値", "mean": "平均値"}
 LEVELS = {"damage limit": "損傷の始まり", "safety limit": "大きな損傷"}
 
 
@@ -45,7 +46,7 @@ def other_walls(summary):
     if not english.other_walls(summary):
         return ""
     other = summary.walls.other
-    return f"耐力壁の水準 {other.level} では{OUTCOMES[other.verdict]}"
+    return f"耐力壁の強さを{WALL_LEVELS[other.level]}とすると{OUTCOMES[other.verdict]}"
 
 
 def weight(summary):
@@ -118,7 +119,7 @@ def early(summary):
     onset, end = summary.missed_shaking or (None, None)
     if onset is None:
         return ""
-    return (f"強い揺れ（{onset:.1f} 秒）の前で計算を終了" if summary.duration_s < onset
+    return (f"強い揺れ（{onset:.1f} 秒）の前に計算を終了" if summary.duration_s < onset
             else f"強い揺れ（{onset:.1f}～{end:.1f} 秒）の途中で計算を終了")
 
 
