@@ -4,7 +4,6 @@
 #include <kernel/constants.hpp>
 #include <kernel/threads.hpp>
 #include <validation.hpp>
-#include <numeric>
 
 namespace yade {
 
@@ -42,21 +41,31 @@ void ContactForces::validate() const
 	requirePositive("ContactForces.tolerance", tolerance);
 }
 
-void ContactForces::sortPairs()
-{
-	const auto ids = [this](size_t k) { return std::minmax(unordered[k].id1, unordered[k].id2); };
-	order.resize(unordered.size());
-	std::iota(order.begin(), order.end(), 0);
-	std::sort(order.begin(), order.end(), [&](size_t k, size_t l) { return ids(k) < ids(l); });
+namespace {
+	/// Interactions with contact geometry, in the container's order.
+	void findInteractions(const Scene& scene, std::vector<const Interaction*>& found)
+	{
+		static const int manifoldIndex = ManifoldGeom::getClassIndexStatic();
+		found.clear();
+		for (const shared_ptr<Interaction>& I : *scene.interactions)
+			if (I->isReal() && I->geom->getClassIndex() == manifoldIndex) found.push_back(I.get());
+	}
+
+	void sortByIds(std::vector<const Interaction*>& interactions)
+	{
+		const auto isBefore = [](const Interaction* I, const Interaction* J) {
+			return std::minmax({ I->getId1(), I->getId2() }) < std::minmax({ J->getId1(), J->getId2() });
+		};
+		if (!std::is_sorted(interactions.begin(), interactions.end(), isBefore))
+			std::sort(interactions.begin(), interactions.end(), isBefore);
+	}
 }
 
-/// Pairs with contact points or released energy, in the container's order.
-void ContactForces::findPairs(const Scene& scene, std::vector<ContactPair>& contacts)
+/// Pairs with contact points or released energy.
+void ContactForces::findPairs(const std::vector<const Interaction*>& interactions, std::vector<ContactPair>& contacts)
 {
-	static const int manifoldIndex = ManifoldGeom::getClassIndexStatic();
 	contacts.clear();
-	for (const shared_ptr<Interaction>& I : *scene.interactions) {
-		if (!I->isReal() || I->geom->getClassIndex() != manifoldIndex) continue;
+	for (const Interaction* I : interactions) {
 		ManifoldPhys& phys = *static_cast<ManifoldPhys*>(I->phys.get());
 		if (!phys.isIdle())
 			contacts.push_back({ I->getId1(), I->getId2(), static_cast<ManifoldGeom*>(I->geom.get()), &phys,
@@ -64,15 +73,26 @@ void ContactForces::findPairs(const Scene& scene, std::vector<ContactPair>& cont
 	}
 }
 
+std::vector<ContactForces::ContactPair> ContactForces::pairsOf(const Scene& scene)
+{
+	std::vector<const Interaction*> interactions;
+	findInteractions(scene, interactions);
+	sortByIds(interactions);
+	std::vector<ContactPair> contacts;
+	findPairs(interactions, contacts);
+	return contacts;
+}
+
+/// Interactions keep their order while the container has the same ones.
 void ContactForces::collectPairs()
 {
-	findPairs(*scene, unordered);
-	// the order of the last step is reused while the pairs are the same
-	const auto hasSameIds = [this](const ContactPair& p, size_t k) { return p.hasIdsOf(unordered[k]); };
-	if (pairs.size() != unordered.size() || !std::equal(pairs.begin(), pairs.end(), order.begin(), hasSameIds))
-		sortPairs();
-	pairs.resize(unordered.size());
-	std::transform(order.begin(), order.end(), pairs.begin(), [this](size_t k) { return unordered[k]; });
+	findInteractions(*scene, found);
+	if (found != unordered) {
+		unordered = found;
+		interactions = found;
+	}
+	sortByIds(interactions);
+	findPairs(interactions, pairs);
 }
 
 void ContactForces::collectBody(Body::id_t id)
@@ -303,13 +323,8 @@ std::vector<timber::SolverBody> ContactForces::placements(const Scene& scene)
 std::vector<timber::PointSpring> ContactForces::linearSprings(
         const Scene& scene, const std::vector<timber::SolverBody>& bodies)
 {
-	std::vector<ContactPair> contacts;
-	findPairs(scene, contacts);
-	std::sort(contacts.begin(), contacts.end(), [](const ContactPair& p, const ContactPair& q) {
-		return std::minmax(p.id1, p.id2) < std::minmax(q.id1, q.id2);
-	});
 	std::vector<timber::PointSpring> springs;
-	for (const ContactPair& pair : contacts)
+	for (const ContactPair& pair : pairsOf(scene))
 		for (size_t k = 0; k < pair.points; ++k) {
 			const timber::ContactPoint& at = pair.geom->contactPoints[k];
 			const timber::PointRecord& record = pair.phys->records[k];
@@ -324,10 +339,8 @@ std::vector<timber::PointSpring> ContactForces::linearSprings(
 
 Real ContactForces::dashpotPower(const Scene& scene, const std::vector<timber::SolverBody>& bodies)
 {
-	std::vector<ContactPair> contacts;
-	findPairs(scene, contacts);
 	Real power = yade::dashpotPower(scene, bodies);
-	for (const ContactPair& pair : contacts) {
+	for (const ContactPair& pair : pairsOf(scene)) {
 		const timber::SolverBody &a = bodies[pair.id1], &b = bodies[pair.id2];
 		const timber::PairProperties properties = pair.phys->properties();
 		for (size_t k = 0; k < pair.points; ++k) {

@@ -20,15 +20,15 @@ class ContactForces : public GlobalEngine {
 		ManifoldPhys* phys;
 		size_t points; ///< copy of the number of phys's records; 0 if all of them are idle
 		Real released, placed; ///< copies of phys->releasedEnergy and phys->placedEnergy [J]
-		bool hasIdsOf(const ContactPair& p) const { return id1 == p.id1 && id2 == p.id2; }
 	};
 	struct IslandResult {
 		timber::PairEnergies energies;
 		ImplicitJointResult joints;
 		timber::Convergence convergence;
 	};
-	std::vector<ContactPair> pairs, unordered; ///< ordered by body ids, and in the container's order
-	std::vector<size_t> order; ///< of each of `pairs`, its index in `unordered`
+	/// With contact geometry: by body ids, in the container's order, and in that of the last step
+	std::vector<const Interaction*> interactions, found, unordered;
+	std::vector<ContactPair> pairs; ///< ordered by body ids
 	std::vector<ImplicitJoint> joints; ///< damped or stiff
 	timber::Islands islands; ///< of the pairs, and of the joints after them
 	std::vector<timber::Link> links; ///< of each pair and joint
@@ -39,8 +39,8 @@ class ContactForces : public GlobalEngine {
 	std::vector<timber::PairForce> linkForces; ///< of those links
 	BodyForces sums; ///< of contacts, and of the joints that the solver treats
 
-	static void findPairs(const Scene&, std::vector<ContactPair>&);
-	void sortPairs();
+	static void findPairs(const std::vector<const Interaction*>&, std::vector<ContactPair>&);
+	static std::vector<ContactPair> pairsOf(const Scene&);
 	void collectPairs();
 	void collectBody(Body::id_t);
 	void collectBodies();

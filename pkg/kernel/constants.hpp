@@ -85,12 +85,12 @@ constexpr double deepNormalCosine = 0.5;
 
 /// Skin of the candidate search, as in Verlet lists: the candidates stay valid while the pair moves by less than this.
 /// [m] Larger: fewer searches, more candidates in each step.
-constexpr double candidateSkin = 8e-3;
+constexpr double candidateSkin = 4e-3;
 
 /// Skin for pairs at rest: those whose displacement changed by less than half of it in restInterval updates. [m]
 /// Larger: more candidates in each step; smaller: more searches. A search pays off within about 20 updates, or 40 with
 /// the one that follows when the pair moves again.
-constexpr double restSkin = candidateSkin / 40;
+constexpr double restSkin = candidateSkin / 20;
 constexpr int restInterval = 100; ///< [updates]
 static_assert(restSkin * restSkin > 2 * flushTolerance * flushTolerance,
         "the skin must cover the distance of a flush support from a corner");

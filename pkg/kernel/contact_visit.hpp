@@ -8,14 +8,16 @@
 
 namespace timber {
 
+// Functions that few visits need are not inlined: the registers are those of the usual visit.
+
 /// Normal impulse that returns the energy A_n: p_A of (5). base: b [m/s].
-inline double energyImpulse(const PointStep& c, double base)
+[[gnu::noinline]] inline double energyImpulse(const PointStep& c, double base)
 {
 	return largestShare(c.before[0] + base, c.response(), c.energy);
 }
 
 /// Normal impulse with which an impact ends: p_w of (6), at least what stops the approach. base: b [m/s].
-inline double reboundImpulse(const PointStep& c, double base)
+[[gnu::noinline]] inline double reboundImpulse(const PointStep& c, double base)
 {
 	const double soft = (c.rebound - base + reboundSoftness * (c.rebound - c.velocity[0])) / (1 + reboundSoftness);
 	return std::max({ 0., soft, -base }) / c.response();
@@ -66,7 +68,7 @@ inline HardeningImpulse hardeningImpulse(const PointStep& c, double d)
 /// displacement d for it, > 0 [m].
 /// In the unknown d, (7) is d + h a (1 - a M_n) more(d) = way, whose left side increases: Newton's method within
 /// bounds.
-inline double hardenedImpulse(const PointStep& c, double linear, double way)
+[[gnu::noinline]] inline double hardenedImpulse(const PointStep& c, double linear, double way)
 {
 	const double h = c.length, a = c.response(), factor = h * a * (1 - a * c.mass[0]);
 	double low = 0, high = std::min(way, c.room), d = high;

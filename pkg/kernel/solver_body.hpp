@@ -2,6 +2,7 @@
 /// Bodies as the solver sees them, in the world frame.
 #pragma once
 #include "kinematics.hpp"
+#include <cstring>
 
 namespace timber {
 
@@ -125,15 +126,17 @@ struct PairVector {
 
 	static PairVector of(const double* a, const double* b)
 	{
-		return { { Quad { a[0], a[1], a[2], a[3] }, Quad { a[4], a[5], b[0], b[1] },
-			Quad { b[2], b[3], b[4], b[5] } } };
+		const Half end = loaded<Half>(a + 4), start = loaded<Half>(b);
+		return { { loaded<Quad>(a), __builtin_shufflevector(end, start, 0, 1, 2, 3), loaded<Quad>(b + 2) } };
 	}
 	void store(double* a, double* b) const
 	{
-		for (int i = 0; i < 6; ++i) {
-			a[i] = part[i / 4][i % 4];
-			b[i] = part[(6 + i) / 4][(6 + i) % 4];
-		}
+		const Half end = __builtin_shufflevector(part[1], part[1], 0, 1),
+		           start = __builtin_shufflevector(part[1], part[1], 2, 3);
+		std::memcpy(a, &part[0], sizeof(Quad));
+		std::memcpy(a + 4, &end, sizeof(Half));
+		std::memcpy(b, &start, sizeof(Half));
+		std::memcpy(b + 2, &part[2], sizeof(Quad));
 	}
 	/// Four partial sums of the scalar product.
 	[[gnu::always_inline]] Quad partialDot(const PairVector& o) const
@@ -154,6 +157,15 @@ struct PairVector {
 	{
 		for (int i = 0; i < 3; ++i)
 			part[i] += o.part[i] * factor;
+	}
+
+private:
+	typedef double Half __attribute__((vector_size(2 * sizeof(double))));
+	template <class Vector> static Vector loaded(const double* x)
+	{
+		Vector v;
+		std::memcpy(&v, x, sizeof(Vector));
+		return v;
 	}
 };
 

@@ -197,12 +197,13 @@ TEST(CandidateCache, ParallelEdgesThatTurn)
 /// the sum of the radii.
 TEST(CandidateCache, LathsThatPassThroughEachOther)
 {
-	const auto lath = roundedBox({ 0.2, 0.0064, 0.0064 }, 2e-4);
+	const double thickness = 0.8 * candidateSkin;
+	const auto lath = roundedBox({ 0.2, thickness, thickness }, thickness / 32);
 	const Quat across = about(Vec3::UnitZ(), M_PI / 2);
 	const auto points = afterMove(lath, lath, { { 0, 0, move / 2 }, across }, { { 0, 0, -move / 2 }, across });
 	EXPECT_EQ(count(points, FeatureKind::EdgeEdge), 4);
 	for (const auto& p : points)
-		EXPECT_NEAR(p.overlap, 0.0064 - move / 2, 1e-13); // rounding of positions
+		EXPECT_NEAR(p.overlap, thickness - move / 2, 1e-13); // rounding of positions
 }
 
 /// Two ridges at a small angle in deep contact, whose edges do not cross yet. A small pitch shifts their crossing by
