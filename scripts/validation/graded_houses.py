@@ -13,7 +13,8 @@ Levels: those of walls of a rated multiplier (docs/house_files.md).
 The runs take half a minute of computing each and can be stopped; the same command continues. Table and figure have the
 name of the folder of the runs. Peaks compare best where no storey fails, at half of the motion:
 
-    scripts/validation/graded_houses.py --record PREFIX --start 6 --end 18 --scale 0.5 --seeds 1 --out results/half_kobe
+    scripts/validation/graded_changes.py --record PREFIX --start 6 --end 18 --scale 0.5 --levels mean
+        --changes 'finishes off + law slip' --out results/half_kobe
 """
 import sys
 from functools import partial

@@ -212,6 +212,14 @@ def test_rows_of_single_changes(tmp_path):
     assert [storey.p_delta for storey in model_alone.storeys(path, "ew")] == [0.0, 0.0]
 
 
+@pytest.mark.parametrize("name", ["column ends closed", "gypsum alone", "law slip", "symmetric walls"])
+def test_each_change_is_a_house_and_storeys(name, tmp_path):
+    """Readable by the house files, with two storeys of the lumped-mass model that have walls and column ends."""
+    case = changes.Case((name,), 1.25, "mean")
+    storeys = case.storeys(case.house_file(tmp_path, "law"), "ns")
+    assert len(storeys) == 2 and all(storey.at_rest() > 0 and len(storey.springs) > 1 for storey in storeys)
+
+
 @pytest.mark.parametrize("wrong", [{"changes": "siding + no such"}, {"grades": "2"}, {"levels": "low"}])
 def test_unknown_rows_are_refused(wrong):
     with pytest.raises(RunError, match="known"):
