@@ -30,20 +30,45 @@ namespace {
 		return true;
 	}
 
-	/// Whether a yielding joint crosses too much of its law in a step for explicit springs.
-	bool isFast(const TimberJoint& joint, const Scene& scene, const std::vector<timber::SolverBody>& bodies)
+	/// Energy by which explicit springs of a joint may err in a step, over that of the scene, from which on they are
+	/// implicit. [-]
+	constexpr Real yieldError = 1e-5;
+
+	/// Energy by which a yielding joint errs in this step if its springs cross a corner of their law. [J]
+	Real errorOfYielding(
+	        const TimberJoint& joint, const Scene& scene, const std::vector<timber::SolverBody>& bodies)
 	{
-		if (!joint.yields()) return false;
 		const Quaternionr &qA = bodyAt(scene, joint.id1)->state->ori,
 		                  &qB = bodyAt(scene, joint.id2)->state->ori;
 		const timber::SolverBody &a = bodies[joint.id1], &b = bodies[joint.id2];
+		Real error = 0;
 		for (size_t k = 0; k < joint.broken.size(); ++k) {
 			if (joint.broken[k]) continue;
-			const Vector3r speed = timber::relativeVelocity<double>(qA * joint.anchors1[k],
-			        qB * joint.anchors2[k], a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
-			if (scene.dt * speed.norm() * joint.kn > timber::yieldTravel * joint.strength) return true;
+			const Real way = scene.dt
+			        * timber::relativeVelocity<double>(qA * joint.anchors1[k], qB * joint.anchors2[k],
+			                a.newVelocity, a.newSpin, b.newVelocity, b.newSpin)
+			                  .norm();
+			if (way * joint.kn > timber::yieldTravel * joint.strength)
+				error += joint.stiffness().normal * way * way / 8;
 		}
-		return false;
+		return error;
+	}
+
+	/// Kinetic energy of the bodies, and what the joints have stored and dissipated. [J]
+	Real energyOf(const JointEngine& joints, const std::vector<timber::SolverBody>& bodies)
+	{
+		Real energy = joints.elastic + joints.yielded + joints.released;
+		for (const timber::SolverBody& b : bodies)
+			if (b.inverseMass > 0) energy += b.velocity.squaredNorm() / (2 * b.inverseMass);
+		return energy;
+	}
+
+	/// Whether a yielding joint crosses too much of its law in a step for explicit springs.
+	bool isFast(const TimberJoint& joint, const Scene& scene, const std::vector<timber::SolverBody>& bodies,
+	        const JointEngine& joints)
+	{
+		const Real error = joint.yields() ? errorOfYielding(joint, scene, bodies) : 0;
+		return error > 0 && error > yieldError * energyOf(joints, bodies);
 	}
 
 	/// A joint that stops being stiff without a step of the solver.
@@ -166,7 +191,7 @@ ImplicitJointResult findImplicitJoints(const Scene& scene, const std::vector<tim
 		TimberJoint& joint = *engine->joints[k];
 		const bool may = (joint.isDamped() || alsoStiff) && hasModes(joint, scene, bodies);
 		const bool isStiff = may && alsoStiff
-		        && (joint.isStiff() || joint.modes.isStiff(scene.dt) || isFast(joint, scene, bodies));
+		        && (joint.isStiff() || joint.modes.isStiff(scene.dt) || isFast(joint, scene, bodies, *engine));
 		if (may && (isStiff || joint.isDamped()))
 			implicit.push_back({ &joint, k, isStiff, engine->lastForce(k).tangent });
 		if (isStiff && !joint.isStiff()) engine->handOver(k);
