@@ -25,9 +25,9 @@ RESIDUAL = 1e-4
 SPEED_SHARE = 1.5
 """Largest speed over that of the fall plus that of the ground [-]: a light body struck by a heavy one leaves with 1 +
 e_r = 1.12 times its speed, an end of a falling column with 3^(1/2) / 2^(1/2) = 1.22 times that of a free fall."""
-FINER, SAME_SPEED = 5, 1.1
-"""A member that is squeezed out between closing surfaces may leave faster. That is no error of the step if the speed
-at the step over FINER is the same, within this factor. [-]"""
+FINER, SAME = 5, 1.1
+"""A member that is squeezed out between closing surfaces may leave faster, and out of its stack. That is no error of the
+step if it does so at the step over FINER, within this factor of speed and displacement. [-]"""
 CREEP, CREEP_TIME = 1e-5, 4.0
 """Largest slope of the place of a corner over the last seconds [s] of a scene at rest [m/s]. A heavy block on light
 ones has the dashpots of these (Eqs. 41, 42): it swings by up to 0.1 mm at 3 Hz for ten seconds, and does not creep."""
@@ -59,16 +59,16 @@ class Verdict:
     weight: float  # error of the contact and joint forces on fixed bodies [-]
     handed: float  # of the forces that YADE's container has for them [-]
     answer: list
-    finer_speed: float = 0.0  # largest speed at a smaller step, of a scene that exceeds the limit [m/s]
+    finer: "Verdict" = None  # at a smaller step, of a scene in which a body is too fast or moves too far
 
     def faults(self):
         """Words for all that is not sound; empty for a sound scene."""
         run, found = self.outcome, list(self.outcome.faults())
-        limit = max(self.speed_limit, SAME_SPEED * self.finer_speed)
-        bounds = [("residual", run.residual, RESIDUAL), ("speed", run.speed, limit),
+        fastest, farthest = (SAME * self.finer.outcome.speed, SAME * self.finer.moved) if self.finer else (0.0, 0.0)
+        bounds = [("residual", run.residual, RESIDUAL), ("speed", run.speed, max(self.speed_limit, fastest)),
                   ("unconverged steps", run.unconverged, 0), (f"overlap {run.pair}, by", run.unexplained, 0.0)]
         if self.plan.stands is not None:
-            bounds.append(("moved", self.moved, self.plan.stands))
+            bounds.append(("moved", self.moved, max(self.plan.stands, farthest)))
         if self.plan.rests and not run.error:
             bounds += [("creep", self.creep, CREEP), ("weight", self.weight, WEIGHT),
                        ("forces handed over", self.handed, WEIGHT)]
@@ -175,8 +175,9 @@ def advance(watch, rest):
 def judge(name, build, seed):
     """Build a scene with random numbers of a seed, run it -> Verdict. Errors of the health check end it."""
     verdict = judged_at(name, build, seed, 1)
-    if verdict.outcome.speed > verdict.speed_limit:
-        verdict.finer_speed = judged_at(name, build, seed, FINER).outcome.speed
+    stands = verdict.plan.stands
+    if verdict.outcome.speed > verdict.speed_limit or (stands is not None and verdict.moved > stands):
+        verdict.finer = judged_at(name, build, seed, FINER)
     return verdict
 
 
