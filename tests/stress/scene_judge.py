@@ -26,8 +26,8 @@ SPEED_SHARE = 1.5
 """Largest speed over that of the fall plus that of the ground [-]: a light body struck by a heavy one leaves with 1 +
 e_r = 1.12 times its speed, an end of a falling column with 3^(1/2) / 2^(1/2) = 1.22 times that of a free fall."""
 FINER, SAME = 5, 1.1
-"""A member that is squeezed out between closing surfaces may leave faster, and out of its stack. That is no error of the
-step if it does so at the step over FINER, within this factor of speed and displacement. [-]"""
+"""A member that is squeezed out between closing surfaces may leave faster, and leave its stack. That is no error of
+the step if it does so at the step over FINER, within this factor of speed and displacement. [-]"""
 CREEP, CREEP_TIME = 1e-5, 4.0
 """Largest slope of the place of a corner over the last seconds [s] of a scene at rest [m/s]. A heavy block on light
 ones has the dashpots of these (Eqs. 41, 42): it swings by up to 0.1 mm at 3 Hz for ten seconds, and does not creep."""
