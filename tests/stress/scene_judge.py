@@ -59,7 +59,7 @@ class Verdict:
     weight: float  # error of the contact and joint forces on fixed bodies [-]
     handed: float  # of the forces that YADE's container has for them [-]
     answer: list
-    finer: "Verdict" = None  # at a smaller step, of a scene in which a body is too fast or moves too far
+    finer: "Verdict" = None  # at a smaller step, sound but for a body that is too fast or moves too far
 
     def faults(self):
         """Words for all that is not sound; empty for a sound scene."""
@@ -177,7 +177,9 @@ def judge(name, build, seed):
     verdict = judged_at(name, build, seed, 1)
     stands = verdict.plan.stands
     if verdict.outcome.speed > verdict.speed_limit or (stands is not None and verdict.moved > stands):
-        verdict.finer = judged_at(name, build, seed, FINER)
+        finer = judged_at(name, build, seed, FINER)
+        if all(fault.startswith(("speed", "moved")) for fault in finer.faults()):
+            verdict.finer = finer
     return verdict
 
 
