@@ -255,10 +255,9 @@ constexpr double stiffPhase = 1;
 /// Share of it below which a stiff joint's springs are explicit again. [-] Modes change by some per cent as bodies turn.
 constexpr double softPhase = 0.8;
 
-/// Change of a yielding spring's stretch in a step, over that at its strength with the initial stiffness, from which on
-/// its joint is solved as stiff ones are. [-] Explicit springs that cross a corner of the law between two placements err
-/// by up to a quarter of its square of the energy at the strength. Larger: energy from nothing; smaller: the walls of
-/// houses take part in the sweeps, four times the time of a step.
+/// Change of a yielding spring's stretch in a step, over that at its strength with the initial stiffness, up to which
+/// explicit springs may cross a corner of the law. [-] They err by up to a quarter of its square of the energy at the
+/// strength. Larger: energy from nothing.
 constexpr double yieldTravel = 0.05;
 
 /// Share of the solver's tolerance for a joint that is just stiff; it falls with (h omega)^4. [-] 1: displacements of a
