@@ -30,10 +30,6 @@ namespace {
 		return true;
 	}
 
-	/// Energy by which explicit springs of a joint may err in a step, over that of the scene, from which on they are
-	/// implicit. [-]
-	constexpr Real yieldError = 1e-5;
-
 	/// Energy by which a yielding joint errs in this step if its springs cross a corner of their law. [J]
 	Real errorOfYielding(
 	        const TimberJoint& joint, const Scene& scene, const std::vector<timber::SolverBody>& bodies)
@@ -61,14 +57,6 @@ namespace {
 		for (const timber::SolverBody& b : bodies)
 			if (b.inverseMass > 0) energy += b.velocity.squaredNorm() / (2 * b.inverseMass);
 		return energy;
-	}
-
-	/// Whether a yielding joint crosses too much of its law in a step for explicit springs.
-	bool isFast(const TimberJoint& joint, const Scene& scene, const std::vector<timber::SolverBody>& bodies,
-	        const JointEngine& joints)
-	{
-		const Real error = joint.yields() ? errorOfYielding(joint, scene, bodies) : 0;
-		return error > 0 && error > yieldError * energyOf(joints, bodies);
 	}
 
 	/// A joint that stops being stiff without a step of the solver.
@@ -187,11 +175,17 @@ ImplicitJointResult findImplicitJoints(const Scene& scene, const std::vector<tim
 	implicit.clear();
 	JointEngine* engine = findEngine<JointEngine>(scene);
 	if (!engine) return lost;
+	Real energy = -1; // of the scene, once a joint needs it
+	const auto isFast = [&](const TimberJoint& joint) {
+		const Real error = joint.yields() ? errorOfYielding(joint, scene, bodies) : 0;
+		if (error > 0 && energy < 0) energy = energyOf(*engine, bodies);
+		return error > 0 && error > timber::yieldError * energy;
+	};
 	for (size_t k = 0; k < engine->joints.size(); ++k) {
 		TimberJoint& joint = *engine->joints[k];
 		const bool may = (joint.isDamped() || alsoStiff) && hasModes(joint, scene, bodies);
-		const bool isStiff = may && alsoStiff
-		        && (joint.isStiff() || joint.modes.isStiff(scene.dt) || isFast(joint, scene, bodies, *engine));
+		const bool isStiff
+		        = may && alsoStiff && (joint.isStiff() || joint.modes.isStiff(scene.dt) || isFast(joint));
 		if (may && (isStiff || joint.isDamped()))
 			implicit.push_back({ &joint, k, isStiff, engine->lastForce(k).tangent });
 		if (isStiff && !joint.isStiff()) engine->handOver(k);

@@ -259,6 +259,10 @@ constexpr double softPhase = 0.8;
 /// explicit springs may cross a corner of the law. [-] They err by up to a quarter of its square of the energy at the
 /// strength. Larger: energy from nothing.
 constexpr double yieldTravel = 0.05;
+/// Energy by which explicit springs of a yielding joint may err in a step, over that of bodies and joints, from which on
+/// the joint is solved as stiff ones are. [-] Smaller: walls of houses take part in the sweeps, four times the time of a
+/// step.
+constexpr double yieldError = 1e-5;
 
 /// Share of the solver's tolerance for a joint that is just stiff; it falls with (h omega)^4. [-] 1: displacements of a
 /// chain at h omega = 30 grow by 17 % in 100 steps; smaller: more sweeps.
