@@ -21,10 +21,12 @@ struct BearingStrength {
 	BearingStrength at(double c) const { return { force(c), 0, 0 }; }
 };
 
-/// Of each point of a pair: pressure times the pair's bearing area over the number of points. The area is that of the
-/// rectangle with the points' second moments, of sides 2a and 2b, widened by the radius and the plastic overlap on all
-/// sides: 4 (a + r + c) (b + r + c). Four corners of the core of a face give the whole face, two points a strip, one a
-/// square.
+/// Of each point of a pair: pressure times the pair's bearing area over the number N of its points. The area is that of
+/// the rectangle with the points' second moments, of sides 2a and 2b, widened by the radius and the plastic overlap on
+/// all sides: 4 (a + r + c) (b + r + c). Four corners of the core of a face give the whole face, two points a strip, one
+/// a square.
+/// Points have the squares of their overlaps as weights w, N = (sum w)^2 / sum w^2: the strength is continuous when a
+/// point begins or ends, and a load off the middle bears on less than the whole face.
 /// pressure: bearing strength [Pa], infinite: elastic; radius: the smaller one of the two bodies [m].
 BearingStrength bearingStrength(double pressure, double radius, const std::vector<ContactPoint>& points);
 

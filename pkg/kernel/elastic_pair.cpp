@@ -143,17 +143,17 @@ namespace {
 
 	/// Elastic step when features have changed: 1. move the records of persistent features, and of points that
 	/// continue others, and sum the energy of the rest, which do not act any more; 2. step all points. New ones take
-	/// over the largest plastic overlap of the rest: a member that slides keeps its dent. Returns the energy released
-	/// minus that given to new points. [J]
+	/// over the largest plastic overlap of the pair: a member that slides or rolls keeps its dent. Returns the energy
+	/// released minus that given to new points. [J]
 	template <class Law>
 	double stepChangedFeatures(const Law& law, const ElasticInput& input, const Points& points, Records& records)
 	{
 		Records next(points.size());
 		double released = 0, crushed = 0;
-		const auto release = [&](const PointRecord& r) {
-			if (isContinued(r, points)) return;
-			released += r.normalStored + r.shearStored;
+		for (const PointRecord& r : records)
 			crushed = std::max(crushed, r.crushed);
+		const auto release = [&](const PointRecord& r) {
+			if (!isContinued(r, points)) released += r.normalStored + r.shearStored;
 		};
 		auto old = records.begin();
 		for (size_t k = 0; k < next.size(); ++k) { // 1.

@@ -160,6 +160,20 @@ TEST(BearingStrength, IsThatOfTheArea)
 	EXPECT_FALSE(bearingStrength(pressure, r, {}).isLimited());
 }
 
+/// Two corners under a tilted face are joined by two that begin to touch. First order in their overlap: the strip is
+/// widened by 2 b phi, phi: ratio of the overlaps.
+TEST(BearingStrength, IsContinuousWhenPointsBegin)
+{
+	const double a = 0.3, b = 0.05, r = 0.01;
+	for (const double phi : { 1e-3, 1e-5, 1e-7 }) {
+		std::vector<ContactPoint> points
+		        = pointsAt({ { a - r, b, 0 }, { r - a, b, 0 }, { a - r, -b, 0 }, { r - a, -b, 0 } });
+		points[2].overlap = points[3].overlap = phi * points[0].overlap;
+		const double width = bearingStrength(pressure, r, points).constant * 2 / pressure / (4 * a) - r;
+		EXPECT_NEAR(width, 2 * b * phi, 4 * b * phi * phi + 1e-9); // 1e-9: as above
+	}
+}
+
 /// Loading along Hertz's law up to the strength and along it from there on, in one step or many; unloading along the
 /// shifted law, a gap, and reloading along it.
 TEST(Crushing, FollowsThePath)
@@ -212,6 +226,23 @@ TEST(Crushing, PassesToTheNextPoint)
 	p.to(p.at, 1);
 	EXPECT_NEAR(p.force(), 5e3, 1e-6 * 5e3);
 	EXPECT_NEAR(p.released, hertz.energy(yield) - hertz.energy(overlapAt(5e3)), 1e-6 * hertz.energy(yield));
+}
+
+/// A point that begins beside a crushed one, on surfaces that do not approach, is in the dent: it has no force, and its
+/// strength is that of the dent.
+TEST(Crushing, HoldsForPointsThatBeginBesideADent)
+{
+	Path p;
+	p.pair.strength = { 2e4, 3e6, 1e8 };
+	p.to(5 * overlapAt(2e4), 100);
+	const double c = p.crushed(), overlap = 0.9 * c;
+	const Vec3 none = Vec3::Zero();
+	elasticPair(hertz, { p.pair, { none, none, none }, { none, none, none }, 1e-4 },
+	        { { vertex, {}, none, Vec3::UnitZ(), p.at }, { edge, {}, none, Vec3::UnitZ(), overlap } }, p.records);
+	EXPECT_EQ(p.crushed(), c);
+	EXPECT_EQ(p.records.at(1).crushed, overlap);
+	EXPECT_EQ(p.records.at(1).excess, 0);
+	EXPECT_EQ(p.records.at(1).normalForce, 0);
 }
 
 /// Velocity of separation at the strength against the independent solution, from elastic impacts to those of ten times

@@ -75,13 +75,26 @@ struct Assembly {
 			matrix += stiffness(joint);
 		return matrix;
 	}
+	/// M^power, of free bodies.
+	Matrix rootMass(double power) const
+	{
+		const Eigen::SelfAdjointEigenSolver<Matrix> inverse(inverseMass());
+		const Vector values = inverse.eigenvalues().unaryExpr(
+		        [=](double value) { return value > 0 ? std::pow(value, -power) : 0; });
+		return inverse.eigenvectors() * values.asDiagonal() * inverse.eigenvectors().transpose();
+	}
+	/// The largest frequency. [1/s]
+	double largestFrequency() const
+	{
+		const Matrix root = rootMass(-0.5);
+		return std::sqrt(Eigen::SelfAdjointEigenSolver<Matrix>(root * stiffness() * root).eigenvalues().maxCoeff());
+	}
 	/// M^1/2 f(omega^2) M^1/2 of each joint and its bodies, with the eigenvalues omega^2 of M^-1/2 K M^-1/2, by
 	/// another way than the kernel's: in the coordinates of the bodies.
 	template <class Function> Matrix ofModes(Function f) const
 	{
 		Matrix matrix = Matrix::Zero(size(), size());
-		const Matrix root = Eigen::SelfAdjointEigenSolver<Matrix>(inverseMass()).operatorSqrt(); // M^-1/2
-		const Matrix inverse = root.completeOrthogonalDecomposition().pseudoInverse();
+		const Matrix root = rootMass(-0.5), inverse = rootMass(0.5);
 		for (const Joint& joint : joints) {
 			const Eigen::SelfAdjointEigenSolver<Matrix> modes(root * stiffness(joint) * root);
 			// Rounding of the rigid motions' eigenvalues
