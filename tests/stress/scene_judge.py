@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Judges of a scene: energies, overlaps of cores, speeds, rest, forces on the fixed bodies."""
+import dataclasses
 import math
 import pathlib
 import sys
 import time
-from dataclasses import dataclass, field
 
 TESTS = pathlib.Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(TESTS / "physics"), str(TESTS)]
@@ -35,19 +35,19 @@ WEIGHT = 1e-4
 """Difference of the mean force on the fixed bodies from the weight, at rest, in this time. [-]"""
 
 
-@dataclass
+@dataclasses.dataclass
 class Plan:
     """What is done in a scene and expected of it; its bodies, `O.dt` and `O.engines` are in YADE."""
 
     duration: float  # [s]
-    events: list = field(default_factory=list)  # (time [s], function), in order of time
+    events: list = dataclasses.field(default_factory=list)  # (time [s], function), in order of time
     rests: bool = True  # at the end
     stands: float = None  # largest displacement of a body, None: any [m]
     speed: float = 0.0  # of the ground, and of bodies at the start [m/s]
     answer: callable = None  # at the end -> words for what is wrong
 
 
-@dataclass
+@dataclasses.dataclass
 class Verdict:
     """Of a scene. outcome: collapses.Outcome, shares of the energy put in."""
 
@@ -173,14 +173,22 @@ def advance(watch, rest):
 
 
 def judge(name, build, seed):
-    """Build a scene with random numbers of a seed, run it -> Verdict. Errors of the health check end it."""
+    """Build a scene with random numbers of a seed, run it -> Verdict. Errors of the health check end it.
+
+    A scene that moves at its end runs CREEP_TIME longer: a swing decays, a creep does not."""
     verdict = judged_at(name, build, seed, 1)
+    if verdict.plan.rests and CREEP < verdict.creep < math.inf:
+        verdict = judged_at(name, lambda random: longer(build(random)), seed, 1)
     stands = verdict.plan.stands
     if verdict.outcome.speed > verdict.speed_limit or (stands is not None and verdict.moved > stands):
         finer = judged_at(name, build, seed, FINER)
         if all(fault.startswith(("speed", "moved")) for fault in finer.faults()):
             verdict.finer = finer
     return verdict
+
+
+def longer(plan):
+    return dataclasses.replace(plan, duration=plan.duration + CREEP_TIME)
 
 
 def judged_at(name, build, seed, steps):
