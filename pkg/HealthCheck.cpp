@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <HealthCheck.hpp>
-#include <HouseMonitor.hpp>
+#include <EnergyBalance.hpp>
 #include <Integrator.hpp>
 #include <JointEngine.hpp>
 #include <bodies.hpp>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <HouseMonitor.hpp>
-#include <Gravity.hpp>
+#include <EnergyBalance.hpp>
+#include <JointEngine.hpp>
 #include <bodies.hpp>
 #include <kernel/portable_math.hpp>
 #include <sampling.hpp>
@@ -14,31 +15,6 @@ namespace {
 	/// Columns of each level and their units.
 	const std::pair<const char*, const char*> levelColumns[]
 	        = { { "drift_ns", " [-]" }, { "drift_ew", " [-]" }, { "drop", " [m]" } };
-
-	/// [J]
-	Real kineticEnergy(const Scene& scene)
-	{
-		Real sum = 0;
-		for (const shared_ptr<Body>& b : *scene.bodies) {
-			if (!b || !isFree(*b->state)) continue;
-			sum += (b->state->mass * b->state->vel.squaredNorm() + b->state->angMom.dot(b->state->angVel))
-			        / 2;
-		}
-		return sum;
-	}
-
-	/// Relative to the reference positions, at the half step to which the velocities belong. [J]
-	Real gravityEnergy(const Scene& scene)
-	{
-		const Vector3r gravity = gravityOf(scene);
-		Real sum = 0;
-		for (const shared_ptr<Body>& b : *scene.bodies) {
-			if (!b || !isFree(*b->state)) continue;
-			const State& s = *b->state;
-			sum -= s.mass * gravity.dot(s.pos - s.refPos - scene.dt / 2 * s.vel);
-		}
-		return sum;
-	}
 
 	/// Number of joints without a spring left.
 	int brokenJoints(const Scene& scene)
@@ -74,71 +50,6 @@ namespace {
 		if (values.size() % 2) return { largest, math::abs(upper) };
 		return { largest, math::abs(upper + *std::max_element(values.begin(), values.begin() + half)) / 2 };
 	}
-
-	/// Scene and the engines that store energies, also those that are switched off; null if there is none.
-	struct EnergySources {
-		const Scene& scene;
-		const ContactForces* contacts;
-		const JointEngine* joints;
-		const GroundMotionEngine* motion;
-	};
-
-	/// Elastic energy of joints after a whole step. [J]
-	Real jointEnergy(const EnergySources& s)
-	{
-		Real energy = s.contacts ? s.contacts->elasticJoints : 0;
-		if (s.joints) energy += s.joints->elastic;
-		if (s.joints && !s.joints->dead) energy += s.scene.dt / 2 * s.joints->elasticPower(s.scene);
-		return energy;
-	}
-
-	/// A term of the energy balance after a whole step, see ``yade_timber.energy``.
-	struct EnergyTerm {
-		const char* name;
-		Real (*value)(const EnergySources&); ///< [J]
-	};
-	using Sources = const EnergySources&;
-	const EnergyTerm energyTerms[] = {
-		{ "kinetic", [](Sources s) { return kineticEnergy(s.scene); } },
-		{ "gravity", [](Sources s) { return gravityEnergy(s.scene); } },
-		{ "elastic_contacts",
-		        [](Sources s) {
-		                const ContactForces* c = s.contacts;
-		                return c ? c->elasticNormal + c->elasticShear - c->placed : 0;
-		        } },
-		{ "elastic_joints", jointEnergy },
-		{ "ground_motion", [](Sources s) { return s.motion ? s.motion->workUntilNow(s.scene) : 0; } },
-		{ "dashpot_normal", [](Sources s) { return s.contacts ? s.contacts->dashpotNormal : 0; } },
-		{ "dashpot_shear", [](Sources s) { return s.contacts ? s.contacts->dashpotShear : 0; } },
-		{ "friction", [](Sources s) { return s.contacts ? s.contacts->friction : 0; } },
-		{ "crushing", [](Sources s) { return s.contacts ? s.contacts->crushing : 0; } },
-		{ "broken_springs", [](Sources s) { return s.joints ? s.joints->released : 0; } },
-		{ "lost_contacts", [](Sources s) { return s.contacts ? s.contacts->released : 0; } },
-		{ "joint_dashpot", [](Sources s) { return s.contacts ? s.contacts->jointDashpot : 0; } },
-		{ "joint_yield", [](Sources s) { return s.joints ? s.joints->yielded : 0; } },
-	};
-
-	EnergySources energySources(const Scene& scene)
-	{
-		return { scene, findEngine<ContactForces>(scene, true), findEngine<JointEngine>(scene, true),
-			findEngine<GroundMotionEngine>(scene, true) };
-	}
-}
-
-Real createdEnergy(const Scene& scene)
-{
-	const EnergySources s = energySources(scene);
-	return (s.contacts ? s.contacts->created + s.contacts->jointDebt : 0)
-	        + (s.joints ? math::max(Real(0), s.joints->created) : 0);
-}
-
-Real energyTurnover(const Scene& scene)
-{
-	const EnergySources sources = energySources(scene);
-	Real sum = 0;
-	for (const EnergyTerm& term : energyTerms)
-		if (string(term.name) != "gravity" && string(term.name) != "ground_motion") sum += term.value(sources);
-	return sum;
 }
 
 void HouseMonitor::validate() const
@@ -174,16 +85,6 @@ Vector3r HouseMonitor::displacementOf(int level) const
 	}
 	if (!(mass > 0)) stopRun("HouseMonitor: level " + std::to_string(level) + " has no body with a mass");
 	return sum / mass;
-}
-
-/// Of the current scene: before its first step, an engine of a loaded scene points to the previous one.
-boost::python::dict HouseMonitor::pyEnergy() const
-{
-	boost::python::dict terms;
-	const EnergySources sources = energySources(*Omega::instance().getScene());
-	for (const EnergyTerm& term : energyTerms)
-		terms[term.name] = term.value(sources);
-	return terms;
 }
 
 boost::python::list HouseMonitor::pyColumns() const

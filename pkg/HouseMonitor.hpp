@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// History of a run: storey drift, breaks, energies.
 #pragma once
-#include <ContactForces.hpp>
-#include <GroundMotion.hpp>
-#include <JointEngine.hpp>
+#include <pch.hpp>
 
 namespace yade {
-
-/// Energy that contacts and joints have returned beyond what they had stored, so far. [J]
-Real createdEnergy(const Scene&);
-/// Kinetic, elastic and dissipated energy: what was put into the scene. [J]
-Real energyTurnover(const Scene&);
 
 class HouseMonitor : public GlobalEngine {
 	/// Of the centre of mass of a level since the start. [m]
@@ -22,9 +15,6 @@ public:
 	void postLoad(HouseMonitor&) { validate(); }
 	void validate() const;
 	void action() override;
-	/// Terms of the energy balance after a whole step, see ``yade_timber.energy``. [J]
-	boost::python::dict pyEnergy() const;
-	Real pyCreated() const { return createdEnergy(*Omega::instance().getScene()); }
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(HouseMonitor, GlobalEngine,
@@ -62,9 +52,6 @@ public:
 		((vector<Real>, rows, , , "Samples, one after the other, in the order of columns(). [-]")),
 		,
 		.def("columns", &HouseMonitor::pyColumns, "Names of the columns of rows, with units. [-]")
-		.def("energy", &HouseMonitor::pyEnergy, "Terms of the energy balance now. [J]")
-		.def("created", &HouseMonitor::pyCreated, "Energy that contacts and joints have returned beyond what they "
-			"had stored, so far. [J]")
 	);
 	// clang-format on
 	boost::python::list pyColumns() const;

@@ -4,6 +4,7 @@
 #include <pch.hpp>
 
 #include <ContactPhysics.hpp>
+#include <EnergyBalance.hpp>
 #include <Gl1_RoundedPolyhedron.hpp>
 #include <Integrator.hpp>
 #include <PackedScene.hpp>
@@ -110,6 +111,8 @@ BOOST_PYTHON_MODULE(_yade_timber)
 	boost::python::def("set_thread_count", &setThreadCount, (boost::python::arg("count")));
 	boost::python::def("advance_scenes", &yade::advanceScenes,
 	        (boost::python::arg("scenes"), boost::python::arg("steps"), boost::python::arg("idle")));
+	boost::python::def("energy", &yade::pyEnergy);
+	boost::python::def("created_energy", &yade::pyCreatedEnergy);
 	boost::python::def("contact_laws", &yade::pyContactLaws);
 	boost::python::def("packed_placements", &yade::packedPlacements);
 	boost::python::def("packed_joints", &yade::packedJoints, (boost::python::arg("engine")));

@@ -42,7 +42,7 @@ def summary(scenario, observed, tables, wall_s, made_from, cut_off=None):
     residual, amplitude = drift.residual(history)
     simulated = round(O.iter * scenario.dt, 9)
     structures = survey.by_structure(state, observed.peaks)
-    created = yw.HouseMonitor().created()
+    created = queries.created_energy()
     energy = (energy_balance(queries.energy(), created) if cut_off is None
               else energy_balance(last_energies(history), _finite(created)))
     draft = Summary(
@@ -90,11 +90,11 @@ def recorded_history(monitor):
 
 def last_energies(history):
     """Terms of `queries.energy` in the last sample of a History; zero without one."""
-    return {name: float(history.energy(name)[-1]) if history.samples else 0.0 for name in yw.HouseMonitor().energy()}
+    return {name: float(history.energy(name)[-1]) if history.samples else 0.0 for name in compiled.energy()}
 
 
 def energy_balance(terms, created):
-    """The part `energy` [J] from the terms of `queries.energy`. created: HouseMonitor.created(), None if unknown
+    """The part `energy` [J] from the terms of `queries.energy`. created: queries.created_energy(), None if unknown
 
     input: work of the ground motion, energy of imposed velocities and potential energy released by gravity since the
     start. residual: stored, kinetic and dissipated energy minus the input; residual_fraction: its absolute value over

@@ -87,15 +87,15 @@ YADES = (
 OWN = (
     (yw.ContactForces, between_steps, ("largestEigenvalue",)),
     (yw.HealthCheck, between_steps, ("check",)),
-    (yw.HouseMonitor, between_steps, ("columnPeak", "energy", "medianPeak", "peak", "rows")),
+    (yw.HouseMonitor, between_steps, ("columnPeak", "medianPeak", "peak", "rows")),
     (yw.StructureMonitor, between_steps, ("load", "opening", "pull", "rows", "shear")),
     (yw.JointEngine, between_steps, ("append", "breaks", "joints")),
     (yw.TimberJoint, between_steps, ("broken", "cycles", "forces", "largestStretches", "load", "plasticStretches",
                                      "springs", "stretches")),
     (yw.ManifoldGeom, between_steps, ("points",)),
     (yw.ManifoldPhys, between_steps, ("points",)),
-    (compiled, between_steps, ("dashpot_power", "packed_contacts", "packed_joints", "packed_placements",
-                               "packed_springs")),
+    (compiled, between_steps, ("created_energy", "dashpot_power", "energy", "packed_contacts", "packed_joints",
+                               "packed_placements", "packed_springs")),
 )
 """Class or module, context, its methods and attributes that are called and read within it; which there are of YADE's
 depends on its version."""

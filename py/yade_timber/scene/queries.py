@@ -7,6 +7,7 @@ import yade.wrapper as yw
 from yade.minieigenHP import Vector3
 
 from ..energy_terms import IMPOSED, SUPPLIED
+from ..plugin import compiled
 from . import arguments
 from .background import between_steps
 from .engines import find_engine
@@ -86,7 +87,12 @@ def energy():
     """
     contacts = find_engine(yw.ContactForces)
     imposed = (float(O.tags[TAG]) if TAG in O.tags.keys() else 0.0) + (contacts.imposedWork if contacts else 0.0)
-    return Energies(yw.HouseMonitor().energy() | {IMPOSED: imposed})
+    return Energies(compiled.energy() | {IMPOSED: imposed})
+
+
+def created_energy():
+    """Energy that contacts and joints have returned beyond what they had stored, so far. [J]"""
+    return compiled.created_energy()
 
 
 def energy_residual(terms=None):
