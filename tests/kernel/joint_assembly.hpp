@@ -87,7 +87,8 @@ struct Assembly {
 	double largestFrequency() const
 	{
 		const Matrix root = rootMass(-0.5);
-		return std::sqrt(Eigen::SelfAdjointEigenSolver<Matrix>(root * stiffness() * root).eigenvalues().maxCoeff());
+		return std::sqrt(
+		        Eigen::SelfAdjointEigenSolver<Matrix>(root * stiffness() * root).eigenvalues().maxCoeff());
 	}
 	/// M^1/2 f(omega^2) M^1/2 of each joint and its bodies, with the eigenvalues omega^2 of M^-1/2 K M^-1/2, by
 	/// another way than the kernel's: in the coordinates of the bodies.

@@ -5,7 +5,7 @@ from impact_cases import case
 from rows import check
 
 
-LONG = ("restitution_with_the_papers_dashpot",)
+LONG = ("restitution_with_the_papers_dashpot", "snow_impact")
 
 
 @pytest.mark.parametrize(

@@ -67,6 +67,7 @@ def children(process):
     ]
 
 
+@pytest.mark.rare
 @pytest.mark.skipif(shutil.which("yade") is None, reason="yade is not installed")
 def test_stopped_killed_resumed(folder):
     stopped = start(folder)

@@ -30,7 +30,7 @@ def start(dt=2e-4):
     O.dt = dt
 
 
-@pytest.mark.parametrize("begin", [0.0, 18.5])
+@pytest.mark.parametrize("begin", [0.0, pytest.param(18.5, marks=pytest.mark.rare)])
 def test_bitwise_equal_to_interaction_loop(begin):
     """House C1 under snow, during settlement and in strong shaking."""
 

@@ -44,6 +44,7 @@ def test_sentence_names_the_other_verdict_where_they_differ():
     assert [*texts, other_walls(sample_summary())] == ["verdict with design walls: collapsed", "", ""]
 
 
+@pytest.mark.rare
 def test_report_runs_both_levels(tmp_path):
     """A pulse for which the levels differ is not needed: the other run's verdict is in the summary. A house without
     rated walls has one run.
