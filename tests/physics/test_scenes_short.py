@@ -68,6 +68,18 @@ def test_a_post_that_sinks_is_seen():
     assert all(word in found for word in ("overlap", "moved", "creep", "weight")), found
 
 
+@pytest.mark.parametrize("creep", [0.0, 2e-5])
+def test_the_slope_is_that_of_the_creep(creep):
+    """Beside swings of 0.1 mm and four periods or more in the window, to a quarter of the limit."""
+    rest = scene_judge.Rest(Plan(10.0))
+    rest.times = list(np.arange(80) * 0.05)
+    for frequency in (1.0, 1.7, 3.0):
+        for phase in np.arange(8) * np.pi / 4:
+            swing = 1e-4 * np.sin(2 * np.pi * frequency * np.array(rest.times) + phase)
+            rest.corners = [{1: np.array([[x + creep * t, 0, 0]])} for t, x in zip(rest.times, swing)]
+            assert rest.slopes(0)[0] == pytest.approx(creep, abs=2.5e-6)
+
+
 def test_each_bound_can_fail():
     """Of a sound verdict with one number changed."""
     sound = scenes.run("post", 0)

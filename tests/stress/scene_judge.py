@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Judges of a scene: energies, overlaps of cores, speeds, rest, forces on the fixed bodies."""
-import dataclasses
 import math
 import pathlib
 import sys
 import time
+from dataclasses import dataclass, field
 
 TESTS = pathlib.Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(TESTS / "physics"), str(TESTS)]
@@ -35,19 +35,19 @@ WEIGHT = 1e-4
 """Difference of the mean force on the fixed bodies from the weight, at rest, in this time. [-]"""
 
 
-@dataclasses.dataclass
+@dataclass
 class Plan:
     """What is done in a scene and expected of it; its bodies, `O.dt` and `O.engines` are in YADE."""
 
     duration: float  # [s]
-    events: list = dataclasses.field(default_factory=list)  # (time [s], function), in order of time
+    events: list = field(default_factory=list)  # (time [s], function), in order of time
     rests: bool = True  # at the end
     stands: float = None  # largest displacement of a body, None: any [m]
     speed: float = 0.0  # of the ground, and of bodies at the start [m/s]
     answer: callable = None  # at the end -> words for what is wrong
 
 
-@dataclasses.dataclass
+@dataclass
 class Verdict:
     """Of a scene. outcome: collapses.Outcome, shares of the energy put in."""
 
@@ -139,19 +139,36 @@ class Rest:
         self.corners.append(watch.corners())
         self.loads.append((load_on_fixed(), handed_over()))
 
+    def windows(self):
+        """First samples of the two windows that are judged: all, and the last quarter. A swing averages to nothing in
+        the first; what has come to rest late does in the second."""
+        count = len(self.times)
+        return 0, count - max(2, count // 4)
+
     def slopes(self, first):
-        """Of each body's fastest corner from a sample on: slope of the least-squares line. [m/s]"""
-        times = np.array(self.times[first:]) - np.mean(self.times[first:])
-        weights = times / (times**2).sum()
+        """Of each body's fastest corner from a sample on: slope of the least-squares line. [m/s]
+
+        Hann's weights: a swing of four periods or more in the window has hardly any slope, a creep has its own."""
+        times = np.array(self.times[first:])
+        weights = np.sin(np.pi * (np.arange(len(times)) + 0.5) / len(times))**2
+        times -= weights @ times / weights.sum()
+        weights *= times / (weights @ times**2)
         ids = set.intersection(*map(set, self.corners))
         slopes = (np.tensordot(weights, [corners[k] for corners in self.corners[first:]], 1) for k in ids)
         return np.array([np.linalg.norm(slope, axis=1).max() for slope in slopes])
 
     def creep(self):
-        """Of the fastest body, in all samples and in the last quarter: a swing has none in the first, a body that has
-        come to rest none in the second. [m/s]"""
-        count = len(self.times)
-        return np.minimum(self.slopes(0), self.slopes(count - max(2, count // 4))).max() if count > 1 else 0.0
+        """Of the fastest body. [m/s]"""
+        return np.min([self.slopes(first) for first in self.windows()], axis=0).max() if len(self.times) > 1 else 0.0
+
+    def errors(self, downward):
+        """Of the mean forces on fixed bodies: of contacts and joints, and those handed over. downward: weight [N]"""
+        if not self.loads:
+            return math.inf, math.inf
+        if not downward:
+            return 0.0, 0.0
+        means = [np.mean(self.loads[first:], axis=0) for first in self.windows()]
+        return np.min([abs(mean / downward - 1) for mean in means], axis=0)
 
 
 def advance(watch, rest):
@@ -173,22 +190,14 @@ def advance(watch, rest):
 
 
 def judge(name, build, seed):
-    """Build a scene with random numbers of a seed, run it -> Verdict. Errors of the health check end it.
-
-    A scene that moves at its end runs CREEP_TIME longer: a swing decays, a creep does not."""
+    """Build a scene with random numbers of a seed, run it -> Verdict. Errors of the health check end it."""
     verdict = judged_at(name, build, seed, 1)
-    if verdict.plan.rests and CREEP < verdict.creep < math.inf:
-        verdict = judged_at(name, lambda random: longer(build(random)), seed, 1)
     stands = verdict.plan.stands
     if verdict.outcome.speed > verdict.speed_limit or (stands is not None and verdict.moved > stands):
         finer = judged_at(name, build, seed, FINER)
         if all(fault.startswith(("speed", "moved")) for fault in finer.faults()):
             verdict.finer = finer
     return verdict
-
-
-def longer(plan):
-    return dataclasses.replace(plan, duration=plan.duration + CREEP_TIME)
 
 
 def judged_at(name, build, seed, steps):
@@ -205,8 +214,7 @@ def judged_at(name, build, seed, steps):
     outcome = judged(name, watch, error, time.process_time() - since, watch.energies())
     free = [b for b in bodies() if b.dynamic]
     downward = -weight() * gravity_now()[2] / G
-    loads = np.mean(rest.loads, axis=0) if rest.loads else (math.inf, math.inf)
-    loads = [abs(load / downward - 1) if downward else 0.0 for load in loads]
+    loads = rest.errors(downward)
     limit = SPEED_SHARE * (math.sqrt(2 * G * watch.top) + plan.speed)
     moved = max((b.state.pos - b.state.refPos).norm() for b in free)
     answer = plan.answer() if plan.answer and not error else []
