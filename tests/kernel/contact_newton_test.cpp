@@ -143,7 +143,7 @@ Heap pressedBoards(unsigned seed, int boards)
 } // namespace
 
 /// The impulses that Newton's method finds are those of the velocities: a visit of any point leaves its normal impulse
-/// as it is to leastSoftness, no point returns more than it has, and momenta are kept.
+/// as it is to leastSoftness, friction is at most mu times it, no point returns more than it has, and momenta are kept.
 TEST(Newton, SolvesLightMembersBetweenHeavyOnes)
 {
 	int solved = 0;
@@ -172,6 +172,7 @@ TEST(Newton, SolvesLightMembersBetweenHeavyOnes)
 			           after(u.dot(c.axes[0]), u.dot(c.axes[1]), u.dot(c.axes[2])),
 			           now = firstThree(c.impulse);
 			EXPECT_NEAR(visited(c, after, now)[0], now[0], 1e-4 * largest) << seed << " " << k;
+			EXPECT_LE(now.tail<2>().norm(), c.friction * now[0] + 1e-9 * largest) << seed << " " << k;
 			EXPECT_LE(now[0] * (after[0] + c.before[0]) / 2, p.energy + 1e-9 * largest) << seed << " " << k;
 			EXPECT_LE(now.tail<2>().dot((after + firstThree(c.before)).tail<2>()) / 2,
 			        p.shearEnergy + 1e-9 * largest)
