@@ -183,11 +183,12 @@ def joints(frames):
 
 
 def at_strength(frames):
-    """'27 of 412 joints have reached their strength: 3 broken, 20 partly.'; walls and joints that yield included."""
+    """'27 of 412 joints, those of walls included, have reached their strength: 3 broken, 20 partly.'"""
     states, load = frames.joint_states(-1), frames.peaks["load"]
     reached = [str(states[k]) for k in quantities.by_load(frames) if load[k] >= quantities.FULL]
     counts = ", ".join(f"{reached.count(state)} {state}" for state in dict.fromkeys(reached) if state != "whole")
-    return f"{len(reached)} of {len(load)} joints have reached their strength{f': {counts}' if counts else ''}."
+    walls = ", those of walls included," if len(frames.sheets.low) else ""
+    return f"{len(reached)} of {len(load)} joints{walls} have reached their strength{f': {counts}' if counts else ''}."
 
 
 def failed_joints(frames, failures):

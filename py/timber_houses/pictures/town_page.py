@@ -60,7 +60,7 @@ def _scale(ax, limits):
     ax.plot((left + 1, left + 1 + length), (top - 1, top - 1), color="black", lw=2)
     text = ax.annotate(f"{length:g} m", (left + 1.5 + length, top - 1), ha="left", va="center", fontsize=8)
     beside = OffsetFrom(text, (1, 0.5), "points")
-    ax.annotate("N", (14, 14), (14, -8), xycoords=beside, textcoords=beside, ha="center", va="center", fontsize=8,
+    ax.annotate("N", (14, 7), (14, -13), xycoords=beside, textcoords=beside, ha="center", va="center", fontsize=8,
                 arrowprops={"arrowstyle": "-|>", "color": "black", "shrinkA": 2})
 
 
