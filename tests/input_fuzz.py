@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Damaged house files, records and motion options for hypothesis, and the check that each is used or refused in one
-line.
+"""Damaged house files, towns, records, tables and motion options for hypothesis, and the check that each is used or
+refused in one line.
 """
 
 import argparse
@@ -19,8 +19,10 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "py"))
 
 from timber_houses.base.errors import InputError
-from timber_houses.house import build_house, load_house
+from timber_houses.house import build_house, load_house, load_town
+from timber_houses.house.town import check_places
 from timber_houses.motion import add_motion_options, motion_request, read_motion
+from timber_houses.study.batch import read_table
 
 SECONDS = 5
 """Processor time of one example. [s]"""
@@ -249,6 +251,51 @@ def _numbers(node):
 house_files = varied_trees() | damaged_trees() | damaged_texts([SHED]) | st.binary(max_size=200)
 record_files = damaged_texts(record_texts()) | st.binary(max_size=200)
 
+TOWNS = {
+    "town.yaml": """\
+name: harbour
+wave: {velocity: 500, direction: 90}
+lots:
+  west: {house: A, x: -100, y: 3}
+  east: {house: small.yaml, x: 150, y: 0, rotation: 90, snow: 0.5}
+""",
+    "lots.csv": """\
+lot,house,x [m],y [m],rotation,snow,,
+"west",A,-100,3,,,,
+east,small.yaml,150.5,0,90,0.5,,
+""",
+    "lots.geojson": """\
+{"type": "FeatureCollection", "features": [
+ {"type": "Feature", "properties": {"name": "west", "house": "A", "rotation": 12, "id": 3},
+  "geometry": {"type": "Point", "coordinates": [138.79, 37.31]}},
+ {"type": "Feature", "properties": {"name": "east", "house": "small.yaml", "snow": 0.5},
+  "geometry": {"type": "Polygon", "coordinates": [[[138.8, 37.31], [138.8001, 37.31], [138.8, 37.3101],
+                                                   [138.8, 37.31]]]}}]}
+""",
+}
+TABLES = {
+    "runs.txt": """\
+house snow scale walls set braces description !threads
+A * 1.5 mean snow.depth=0.5;plumb.drift=0.001 * first 2
+small.yaml 1 = * * * "second" 1   # a comment
+""",
+    "runs.csv": """\
+house,record,pga,strength,until_collapse,description,,
+A,small.csv,400,0.8,yes,"a,b",,
+small.yaml,none,,,no,,,
+""",
+}
+"""{file: text} of each format."""
+
+
+def damaged_files(files):
+    """(name, content) of one of {name: text}, damaged."""
+    return st.sampled_from(sorted(files)).flatmap(
+        lambda name: st.tuples(st.just(name), damaged_texts([files[name]]) | st.binary(max_size=200)))
+
+
+town_files, table_files = damaged_files(TOWNS), damaged_files(TABLES)
+
 _OPTIONS = ("record", "seed", "component", "units", "azimuth", "start", "end", "detrend", "highpass", "pga",
             "intensity", "scale")
 _option_values = st.sampled_from([
@@ -288,6 +335,33 @@ def use_record(folder, content, name="record.txt"):
     path = folder / name
     path.write_bytes(content)
     return _refusal(lambda: read_motion(path))
+
+
+def _beside(folder, file):
+    """Path of (name, content), with a house and a record that it may name beside it."""
+    name, content = file
+    for other, text in (("small.yaml", "extends: storehouse\n"), ("small.csv", record_texts()[-1])):
+        (folder / other).write_text(text)
+    (folder / name).write_bytes(content)
+    return folder / name
+
+
+def use_town(folder, file):
+    """Read a town and place its houses; None or the message of refusal. file: (name, content)"""
+    path = _beside(folder, file)
+
+    def use():
+        lots = load_town(path).lots
+        if len(lots) <= 3:
+            check_places([(lot, build_house(load_house(lot.house))) for lot in lots])
+
+    return _refusal(use)
+
+
+def use_table(folder, file):
+    """Read a table of runs, check their options and name them; None or the message of refusal. file: (name, content)"""
+    path = _beside(folder, file)
+    return _refusal(lambda: [(row.name, row.options.check()) for row in read_table(path)])
 
 
 def use_options(folder, words):

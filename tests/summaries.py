@@ -23,6 +23,7 @@ def sample_summary(**changes):
     main = {key: summary.largest_drift(key)[0] for key in ("peak_drift", "residual_drift")}
     main |= {"broken": summary.broken.total, "partly_broken": summary.broken.partly_broken,
              "columns_lost": summary.columns.fallen + summary.columns.loose, "collapsed": summary.collapsed}
+    main["settled"] = summary.settled
     structures = {"main": main, **changes.get("structures", {})}
     summary = summary.changed(structures=structures)
     return summary.changed(verdict=changes.get("verdict", summary.main.verdict))

@@ -136,6 +136,7 @@ def main():
     print(f"{len(ranking.candidates)} measures, {len(ranking.motions)} motions: {runs} runs{cheaper(ranking, options)}")
     if options.dry_run:
         return 0
+    print(ranking.estimate(pilots=not target_of(options)), flush=True)
     strength = "" if target_of(options) else ranking.choose_scale()
     ranking.run()
     results = write(ranking, options, strength)

@@ -35,7 +35,7 @@ FORBIDDEN = {
     "study": {"api"},
 }
 """Room: what its modules must not import. api may import everything."""
-STUDY = {"options", "driver", "batch", "ensemble", "retrofit", "own_weight", "other_walls"}
+STUDY = {"options", "driver", "batch", "ensemble", "retrofit", "own_weight", "other_walls", "probe"}
 FORBIDDEN_IN_STUDY = {
     "options": STUDY - {"options"},
     "driver": STUDY - {"driver"},
@@ -44,6 +44,7 @@ FORBIDDEN_IN_STUDY = {
     "retrofit": {"options", "ensemble"},
     "own_weight": STUDY - {"own_weight", "driver"},
     "other_walls": STUDY - {"other_walls", "driver"},
+    "probe": STUDY - {"probe", "driver"},
 }
 """Part of study, a module or a folder: the parts that it must not import."""
 

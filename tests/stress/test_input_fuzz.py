@@ -1,7 +1,7 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""10 000 damaged house files, records and motion options each (YADE_TIMBER_FUZZ sets another number), with new random
-numbers in each run.
+"""10 000 damaged house files, towns, records, tables and motion options each (YADE_TIMBER_FUZZ sets another number),
+with new random numbers in each run.
 
 Printed are the numbers of examples used and refused, and the longest processor time of one example.
 """
@@ -13,14 +13,17 @@ from collections import Counter
 import pytest
 from hypothesis import HealthCheck, given, settings
 
-from input_fuzz import house_files, motion_options, record_files, use_house, use_options, use_record
+from input_fuzz import (house_files, motion_options, record_files, table_files, town_files, use_house, use_options,
+                        use_record, use_table, use_town)
 
 EXAMPLES = int(os.environ.get("YADE_TIMBER_FUZZ", 10_000))
 many = settings(max_examples=EXAMPLES, deadline=None, database=None, suppress_health_check=list(HealthCheck))
 
 
 @pytest.mark.parametrize("examples, use", [(house_files, use_house), (record_files, use_record),
-                                           (motion_options, use_options)], ids=["houses", "records", "options"])
+                                           (motion_options, use_options), (town_files, use_town),
+                                           (table_files, use_table)],
+                         ids=["houses", "records", "options", "towns", "tables"])
 def test_many(tmp_path, capsys, examples, use):
     counts, longest = Counter(), 0.0
 

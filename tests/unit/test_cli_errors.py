@@ -258,15 +258,15 @@ def test_help_names_every_option_but_those_of_studies(capsys):
         "every_step", "disturb", "export", "or_anew"]
 
 
-def test_help_begins_with_the_ten_main_options_and_ends_with_those_for_experts(capsys, monkeypatch):
+def test_help_begins_with_the_ten_main_options_and_ends_with_those_of_the_motion(capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", "100")
     with pytest.raises(SystemExit):
         cli.read_house(["scripts/house.py", "-h"])
     shown = capsys.readouterr().out.splitlines()
     main = [line.split()[0] for line in shown[:24] if line.startswith("  --")]
     assert len(main) >= 10 and {"--record", "--quake", "--snow", "--duration", "--out"} <= set(main)
-    experts = [line.split()[0] for line in shown[shown.index("for experts:"):] if line.startswith("  --")]
-    assert set(experts) == {"--shortest", "--resample", "--detrend", "--component"}
+    of_motion = [line.split()[0] for line in shown[shown.index("ground motion:"):] if line.startswith("  --")]
+    assert of_motion == [command_option(name) for name in options(MotionRequest) if name != "record"]
 
 
 @pytest.mark.parametrize("option, remedy", [("--quak", "did you mean '--quake'?"),

@@ -138,3 +138,15 @@ def test_sentence_names_steps_that_matter():
     found = sample_summary(solver={"unconverged_steps": 3, "worst_change_j": 1.0}, energy={"input": 1e5})
     assert unconverged(found) == "3 steps did not converge (largest change 1 J)"
     assert unconverged(found.changed(energy={"input": 1e7})) == ""
+
+
+@pytest.mark.parametrize("duration, verdicts", [(20.0, ["unsafe", "unsafe"]), (27.0, ["total loss", "total loss"])])
+def test_no_structure_is_a_total_loss_while_the_ground_shakes_strongly(duration, verdicts):
+    """A residual drift is one after the strong shaking, until 27 s."""
+    leaning = {"peak_drift": 0.3, "residual_drift": 0.2}
+    draft = sample_summary(record={"onset_s": 18.8, "strong_end_s": 27.0}, earthquake=True, duration_s=duration,
+                           **{key: {"storey1": {"ns": value, "ew": 0.0}} for key, value in leaning.items()},
+                           structures={"entrance": leaning})
+    found = summary.judged(draft)
+    assert [facts.verdict for facts in found.structures.values()] == verdicts and found.verdict == verdicts[0]
+    assert ("residual drift" in found.sentence) == (duration == 27.0)

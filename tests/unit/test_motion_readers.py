@@ -468,6 +468,7 @@ REFUSALS = {  # name of the file, its text, place and members in the message
     "gap in K-NET CSV": ("a.csv", lambda: knet_csv_text().replace("\n2020/02/02 02:02:11.00",
                                                                   "\n2020/02/02 02:02:11.00,1.04,1,1,1\n#"), "a.csv:"),
     "empty": ("a.txt", lambda: "", "a.txt"),
+    "only the end of a DOS file": ("a.txt", lambda: "\x1a", "a.txt"),
     "no unit": ("a.csv", lambda: csv_text("# dt: 0.02\nns,ew,ud"), "a.csv: .*units="),
     "contradicting units": ("a.csv", lambda: csv_text("# units: g\n# dt: 0.02\nns_gal,ew_gal,ud_gal"),
                             "a.csv: .*g, gal"),

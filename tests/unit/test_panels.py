@@ -141,6 +141,20 @@ def test_the_record_holds_the_sheets(run, tmp_path):
     assert list(loaded.sheets.low) == [2, 2, 3] and list(loaded.sheets.high) == [3, 3, 5]
 
 
+def test_walls_are_seen_in_space():
+    """Without its sheets the house has another picture in more than a tenth of its points, and no wall in the legend.
+    """
+    model = build_house(load_house("storehouse"))
+    pictures, legends = [], []
+    for _ in range(2):
+        page = drawings.page(model, 40)
+        pictures.append(page.axes[0].images[0].get_array().astype(int))
+        legends.append([text.get_text() for text in page.legends[0].get_texts()])
+        model.joints = [joint for joint in model.joints if not joint.sheet]
+    assert (abs(pictures[0] - pictures[1]).max(axis=2) > 20).mean() > 0.1
+    assert "wall" in legends[0] and "wall" not in legends[1]
+
+
 def test_plan_numbers_the_nodes():
     """tiled_house: 9 nodes along x, 8 along y."""
     ax = new_figure(4, 4, 50).add_axes((0, 0, 1, 1))

@@ -307,7 +307,9 @@ def test_failures_of_one_time_are_one_line():
     assert stucco["place"] == "wall1.EW.y0.3-4, stucco"
     assert report.joints(run) == []
     run.broken[-1], run.joints.damaged[:] = 0, False
-    assert report.at_strength(run) == "8 of 8 joints have reached their strength: 8 whole."
+    assert report.at_strength(run) == "8 of 8 joints have reached their strength."
+    run.broken[-1, :3] = 4, 4, 1
+    assert report.at_strength(run) == "8 of 8 joints have reached their strength: 2 broken, 1 partly."
 
 
 def test_the_report_names_the_level_of_the_walls():

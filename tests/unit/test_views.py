@@ -144,6 +144,14 @@ def test_labels_of_drift_levels_do_not_overlap():
     assert len(heights) == 3 and np.diff(heights).min() >= 0.99 * curves.LABEL_GAP * 50 / 72
 
 
+def test_a_house_without_breaks_has_no_panel_of_them():
+    made = frames()
+    labels = [axis.get_ylabel() for axis in curves.page(made, 50).axes]
+    made.broken[:] = np.where(made.joints.damaged, made.joints.springs, 0)
+    assert [axis.get_ylabel() for axis in curves.page(made, 50).axes] == [
+        label for label in labels if label != "broken joints"] != labels
+
+
 def test_pdf_files_embed_truetype_fonts(tmp_path):
     path = figures.save(curves.page(frames(), 50), tmp_path / "x", ("pdf",))[0]
     content = path.read_bytes()

@@ -24,23 +24,22 @@ class MotionRequest:
     seed: int = option(int, f"synthetic motion of another seed (the default motion is seed {DEFAULT_SEED})", "N", 0,
                        2**31)
     component: str = option(str, "direction of each of the record's files, where they do not state it: ns, ew, ud or"
-                            " azimuth, separated by commas", "DIRECTIONS", group="expert")
+                            " azimuth, separated by commas", "DIRECTIONS")
     units: str = option(str, "unit of the record where it states none: gal, m/s2 or g", "UNIT")
-    shortest: bool = option(bool, "cut components of different length at the shortest one instead of refusing them",
-                            group="expert")
+    shortest: bool = option(bool, "cut components of different length at the shortest one instead of refusing them")
     azimuth: float = option(
         float, "direction of the record's north in the house's axes [degrees], clockwise from +y; "
         "with 90 the north component acts along +x (default 0)", "DEG", -360, 360)
     start: float = option(float, "remove the record before this time [s]", "S", 0, 1e5)
     end: float = option(float, "remove the record after this time [s]", "S", 0, 1e5)
     detrend: int = option(int, "baseline: subtract a polynomial of this order from the accelerations (0: the mean)",
-                          "ORDER", 0, 8, group="expert")
+                          "ORDER", 0, 8)
     highpass: float = option(float, "baseline: zero-phase high-pass at this frequency [Hz]", "HZ", 1e-3, 100)
     pga: float = option(float, "scale all components to this peak of the larger horizontal one [gal]", "GAL", 1e-3, 1e5)
     intensity: float = option(float, "scale all components to this JMA intensity (not rounded)", "I", 0, 8)
     scale: float = option(float, "factor on the ground motion (default 1)", "X", 0, 1e6)
     resample: bool = option(bool, "resample at the run's time step, band-limited, instead of linear interpolation"
-                            " between the record's samples", group="expert")
+                            " between the record's samples")
     then: str = option(
         str, "records that follow, as a main shock after a foreshock: record or record@factor, separated by ; "
         "all other options apply to each of them, too", "RECORDS")

@@ -64,14 +64,14 @@ def read_lines(path):
         raise RecordError(f"{path}: cannot be read ({error.strerror})") from None
     for encoding in ("utf-8-sig", "cp932"):
         try:
-            text = raw.decode(encoding)
+            text = raw.decode(encoding).rstrip("\x1a")  # DOS's end of a file
         except UnicodeDecodeError:
             continue
         if "\0" not in text and text.strip():
             break
     else:
         raise RecordError(f"{path}: {other_binary(raw)}")
-    lines = text.rstrip("\x1a").splitlines()  # DOS's end of a file
+    lines = text.splitlines()
     for number, line in enumerate(lines, 1):
         if len(line) > MAX_LINE:
             raise RecordError(f"{path}:{number}: a line of {len(line)} characters; at most {MAX_LINE}")

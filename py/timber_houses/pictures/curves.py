@@ -31,17 +31,19 @@ JOINT_KINDS = {"column_beam": colors.ORANGE, "brace_beam": colors.BLUE, "brace_c
 @default_style()
 def page(frames, dpi):
     """Figure with the curves of an ended run."""
-    history, shaken = frames.history, frames.motion is not None
+    history, shaken, states = frames.history, frames.motion is not None, frames.joint_states(slice(None))
+    breaks = np.isin(states, ("broken", "partly")).any()
     figure = new_figure(*A4, dpi)
-    axes = list(figure.subplots(5 if shaken else 4, 1, sharex=True))
+    axes = list(figure.subplots(3 + shaken + breaks, 1, sharex=True))
     head = heading_height(A4[0], result(frames)) + 0.2
     figure.subplots_adjust(left=0.12, right=0.77, top=1 - head / A4[1], bottom=0.06, hspace=0.18)
     if shaken:
         draw_motion(axes.pop(0), frames.motion)
     for axis, direction, name in zip(axes, ("ns", "ew"), ("N-S", "E-W")):
         draw_drifts(axis, history, direction, name)
-    draw_breaks(axes[2], frames)
-    draw_energy(axes[3], history)
+    if breaks:
+        draw_breaks(axes[2], frames, states)
+    draw_energy(axes[-1], history)
     draw_events(figure.axes, frames.summary)
     start, end = first_shown(frames), last_shown(frames)
     for axis in figure.axes:
@@ -105,10 +107,9 @@ def draw_levels(axis, largest):
                       va="center", fontsize=8)
 
 
-def draw_breaks(axis, frames):
-    """Numbers of joints broken during the run by kind, of broken wall sheets, of partly broken ones."""
+def draw_breaks(axis, frames, states):
+    """Numbers of joints broken during the run by kind, of broken wall sheets, of partly broken ones. states (F, J)"""
     kinds = np.array(frames.joints.kind)
-    states = frames.joint_states(slice(None))
     sheets = [sheet_states(frames.joints, row == "broken") for row in states]
     for kind in dict.fromkeys(kinds[~of_walls(frames.joints)]):
         broken = (states[:, kinds == kind] == "broken").sum(1)

@@ -14,13 +14,14 @@ from .panels import plates_as_built
 from .raster import Window, even_density, front_of, shade
 from .report_pictures import THICK, wedge
 from .style import default_style
-from .views import FRONT, INK, SIDE, Snapshot, Solid, View, box_of, draw_ends, draw_view, kind_entries
+from .views import (FRONT, INK, SIDE, Snapshot, Solid, View, box_of, draw_ends, draw_view, kind_entries,
+                    sheet_entries)
 
 WIDTH, HEIGHT, DPI = A4[1], A4[0], 300
 """Of the page [inch], and of its shaded parts [1/inch]."""
-OBLIQUE = View("space", "In space, from the north-east (roof half transparent)", (-0.64, 0.768, 0.0),
+OBLIQUE = View("space", "In space, from the north-east (roof and walls half transparent)", (-0.64, 0.768, 0.0),
                (0.704, 0.587, 0.4), "", "", (-0.307, -0.256, 0.917))
-TRANSPARENT = ("roof", "snow")
+TRANSPARENT = ("roof", "snow", "sheet")
 OPACITY = 0.6
 """Of these kinds of elements. [-]"""
 CELLS = ((0.06, 0.49, 0.42, 0.36), (0.55, 0.49, 0.42, 0.36), (0.06, 0.105, 0.42, 0.335), (0.55, 0.105, 0.42, 0.335))
@@ -46,7 +47,7 @@ def page(model, dpi):
     figure = new_figure(WIDTH, HEIGHT, dpi)
     solids = [solid(e) for e in model.elements]
     space, front, side, plan = (figure.add_axes(cell) for cell in CELLS)
-    draw_space(space, solids, dpi)
+    draw_space(space, [*solids, *(plate for plate, _ in sheathing(model))], dpi)
     for ax, view in ((front, FRONT), (side, SIDE)):
         draw_elevation(ax, view, solids, model, dpi)
     draw_plan(plan, model)
@@ -98,7 +99,7 @@ def fit(ax, window, dpi):
 
 
 def draw_space(ax, solids, dpi):
-    """All elements in an oblique parallel view, roof and snow half transparent."""
+    """All elements and wall sheets in an oblique parallel view, the latter, roof and snow half transparent."""
     shown = np.vstack([s.vertices for s in solids if s.kind != "ground"])
     across, up = shown @ OBLIQUE.right, shown @ OBLIQUE.up
     box = across.min() - 0.3, across.max() + 0.3, up.min() - 0.3, up.max() + 0.3
@@ -216,7 +217,7 @@ def frame_damage(ax, positions):
 
 def legend(figure, solids, model):
     symbol = partial(Line2D, [], [], linestyle="none", color="black")
-    entries = kind_entries(solids)
+    entries = kind_entries(solids) + sheet_entries({state for _, state in sheathing(model)})
     for size in sorted({max(e.section) for e in model.of_kind("column")}, reverse=True):
         entries.append(symbol(marker="s", markersize=6, markerfacecolor="black" if size >= THICK else "white",
                               label=f"column {100 * size:g} cm (plan)"))

@@ -124,7 +124,7 @@ def nearest_to_failure(frames, most):
 
 
 def draw_joints(axis, frames):
-    """Joints nearest to failure; no bars where all have reached their strength."""
+    """Joints nearest to failure; a line alone where all have reached their strength."""
     shown, states, load = nearest_to_failure(frames, SHOWN_JOINTS), frames.joint_states(-1), frames.peaks["load"]
     axis.barh(range(len(shown)), load[shown], color=[STATES[states[k]] for k in shown], height=0.7, alpha=0.5)
     axis.set_yticks([])
@@ -133,6 +133,8 @@ def draw_joints(axis, frames):
     axis.invert_yaxis()
     axis.set_xlim(0, 1.05)
     axis.axvline(1, color="black", lw=0.7, ls=":")
+    if not shown:
+        axis.axis("off")
     style(axis, f"utilisation of joints [-]; {(load >= FULL).sum()} more have reached 1")
 
 

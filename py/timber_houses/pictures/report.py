@@ -176,18 +176,19 @@ def motion(frames, summary):
 def joints(frames):
     """Rows of the table of the joints nearest to failure."""
     units = {"load": (1, 2), "pull": (1e-3, 1), "shear": (1e-3, 1), "opening": (1e3, 0)}
-    states = frames.joint_states(-1)
+    states = [state.replace("whole", "") for state in frames.joint_states(-1)]
     return [{"joint": joint_name(frames.joints.name[k]), "state": states[k],
              "numbers": [f"{factor * frames.peaks[name][k]:.{digits}f}" for name, (factor, digits) in units.items()]}
             for k in quantities.nearest_to_failure(frames, JOINTS_SHOWN)]
 
 
 def at_strength(frames):
-    """'27 of 412 joints have reached their strength: 3 broken, 20 partly, 4 whole.'; walls included."""
+    """'27 of 412 joints, those of walls included, have reached their strength: 3 broken, 20 partly.'"""
     states, load = frames.joint_states(-1), frames.peaks["load"]
     reached = [str(states[k]) for k in quantities.by_load(frames) if load[k] >= quantities.FULL]
-    counts = ", ".join(f"{reached.count(state)} {state}" for state in dict.fromkeys(reached))
-    return f"{len(reached)} of {len(load)} joints have reached their strength{f': {counts}' if reached else ''}."
+    counts = ", ".join(f"{reached.count(state)} {state}" for state in dict.fromkeys(reached) if state != "whole")
+    walls = ", those of walls included," if len(frames.sheets.low) else ""
+    return f"{len(reached)} of {len(load)} joints{walls} have reached their strength{f': {counts}' if counts else ''}."
 
 
 def failed_joints(frames, failures):

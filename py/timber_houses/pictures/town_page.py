@@ -2,6 +2,7 @@
 """A town by verdicts: a map with the names of the lots as picture and page, which leads to the pages for the owners."""
 import numpy as np
 from matplotlib.patches import Patch, Polygon
+from matplotlib.text import OffsetFrom
 
 from ..base.atomic_write import write_text
 from ..base.html import html
@@ -53,11 +54,14 @@ def figure(frames):
 
 
 def _scale(ax, limits):
-    """A bar of a tenth to a third of the width, above the houses."""
+    """A bar of a tenth to a third of the width and an arrow to the north, above the houses."""
     left, right, _, top = limits
     length = 10.0 ** np.floor(np.log10((right - left) / 3))
     ax.plot((left + 1, left + 1 + length), (top - 1, top - 1), color="black", lw=2)
-    ax.annotate(f"{length:g} m, north up", (left + 1.5 + length, top - 1), ha="left", va="center", fontsize=8)
+    text = ax.annotate(f"{length:g} m", (left + 1.5 + length, top - 1), ha="left", va="center", fontsize=8)
+    beside = OffsetFrom(text, (1, 0.5), "points")
+    ax.annotate("N", (14, 7), (14, -13), xycoords=beside, textcoords=beside, ha="center", va="center", fontsize=8,
+                arrowprops={"arrowstyle": "-|>", "color": "black", "shrinkA": 2})
 
 
 def box(lots):

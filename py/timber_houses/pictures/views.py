@@ -191,12 +191,17 @@ def kind_entries(solids):
             if kind in colours]
 
 
+def sheet_entries(states):
+    """Legend entries of the states of wall sheets that occur."""
+    return [Patch(facecolor=colors.SHEETS[state], edgecolor=INK, linewidth=0.6, label=name)
+            for state, name in SHEET_NAMES.items() if state in states]
+
+
 def legend(figure, solids, states, size):
     """Legend of colours and marks, at the bottom. states: of the marks; size: of the text, reduced to fit [pt]"""
     entries = kind_entries(solids)
     entries.append(Line2D([], [], color=INK, linewidth=0.9, linestyle="dashed", label="house at the start"))
-    entries += [Patch(facecolor=colors.SHEETS[state], edgecolor=INK, linewidth=0.6, label=name)
-                for state, name in SHEET_NAMES.items() if f"wall {state}" in states]
+    entries += sheet_entries({state.removeprefix("wall ") for state in states if state.startswith("wall ")})
     names = MARK_NAMES | ({"broken": "joint or wall broken (pale: hidden)"} if "wall broken" in states else {})
     entries += [Line2D([], [], linestyle="none", label=name, **marker(state, 0.8 * size))
                 for state, name in names.items() if state in states]

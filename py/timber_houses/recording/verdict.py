@@ -56,13 +56,16 @@ FALLEN_ANGLE = math.radians(45)
 
 @dataclass(frozen=True, kw_only=True)
 class Structure:
-    """Facts on a structure, and its verdict. Drifts [-]; numbers of joints and lost columns since the start."""
+    """Facts on a structure, and its verdict. Drifts [-]; settled: whether the one at the end is a residual drift;
+    numbers of joints and lost columns since the start.
+    """
 
     verdict: str = field(init=False)
     leans: bool = field(init=False)
     peak_drift: float
     column_drift: float = 0.0
     residual_drift: float = 0.0
+    settled: bool = True
     broken: int = 0
     partly_broken: int = 0
     columns_lost: int = 0
@@ -70,14 +73,14 @@ class Structure:
 
     def __post_init__(self):
         object.__setattr__(self, "verdict", _judge(self))
-        object.__setattr__(self, "leans", not self.collapsed and self.residual_drift >= TILT.drift)
+        object.__setattr__(self, "leans", not self.collapsed and self.settled and self.residual_drift >= TILT.drift)
 
 
 def _judge(facts):
     if facts.collapsed:
         return COLLAPSED
     drift = max(facts.peak_drift, facts.column_drift)
-    if facts.residual_drift >= LOSS.drift:
+    if facts.settled and facts.residual_drift >= LOSS.drift:
         return TOTAL_LOSS
     if drift >= SAFETY.drift or facts.columns_lost:
         return UNSAFE

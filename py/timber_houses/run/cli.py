@@ -11,7 +11,7 @@ from ..motion import with_then
 from ..text import english
 from .options import SNOW_DEPTH, RunOptions, scripted
 
-GROUPS = {"run": "time and results", "motion": "ground motion", "expert": "for experts"}
+GROUPS = {"run": "time and results", "motion": "ground motion"}
 """Titles of groups of options in the help, after the main ones."""
 NUMBER = re.compile(r"-(\d|\.\d|inf|nan)")
 """Beginning of a negative number, which is no option."""

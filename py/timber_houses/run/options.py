@@ -116,6 +116,14 @@ class RunOptions(MotionRequest):
         record = self.record is not None or self.seed is not None or self.ground_motion is not None
         return self.quake or record and self.source != SCRIPT
 
+    def requested_motion(self):
+        """GroundMotion before its factor, None without an earthquake. Raises RecordError."""
+        return self.motion(self.dt, self.ground_motion) if self.shaken else None
+
+    def simulated(self, motion):
+        """Simulated time under a GroundMotion or None. [s]"""
+        return self.duration if self.duration is not None else motion.duration if motion else QUIET_DURATION
+
     def named(self, name):
         """An option as the user knows it: --joint-damping, run: joint_damping, table.txt:3, column joint_damping."""
         return self.source.name(name)

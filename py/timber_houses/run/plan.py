@@ -8,7 +8,6 @@ from ..motion import constant_note, interpolation_error, onset
 from ..motion.processing import in_axes
 from ..recording.summary_parts import PartOfRecord, Record
 from ..scene.scenario import Scenario
-from .options import QUIET_DURATION
 
 
 @dataclass(frozen=True)
@@ -27,7 +26,7 @@ def planned(options):
 
 
 def _planned(options):
-    motion = options.motion(options.dt, options.ground_motion) if options.shaken else None
+    motion = options.requested_motion()
     if options.town is None:
         return _scenario(options, motion)
     town = load_town(options.town)
@@ -39,8 +38,7 @@ def _planned(options):
 
 def _scenario(options, motion, delay=0.0, last=0.0):
     """motion: GroundMotion or None; delay: time at which it begins, last: the largest of a town [s]"""
-    duration = (options.duration if options.duration is not None else motion.duration + last if motion
-                else QUIET_DURATION)
+    duration = options.simulated(motion) + (last if options.duration is None else 0.0)
     snow = options.snow if options.snow is not None else load_house(options.house).data["snow"]["depth"]
     return Scenario(options.title, options.house, motion, snow_depth=snow, scale=options.factor,
                     delay=delay if motion else 0.0, dt=options.dt, duration=duration,

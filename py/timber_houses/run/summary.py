@@ -77,8 +77,9 @@ def judged(draft):
     peak, residual = draft.largest_drift()[0], draft.largest_drift("residual_drift")[0]
     at_columns = draft.largest_at_columns or (0.0,)
     main = replace(draft.main, peak_drift=peak, column_drift=at_columns[0], residual_drift=residual,
-                   collapsed=draft.collapsed)
-    draft = replace(draft, structures={**draft.structures, next(iter(draft.structures)): main}, verdict=main.verdict)
+                   settled=draft.settled, collapsed=draft.collapsed)
+    others = {name: replace(facts, settled=draft.missed_shaking is None) for name, facts in draft.others}
+    draft = replace(draft, structures={next(iter(draft.structures)): main, **others}, verdict=main.verdict)
     return replace(draft, diagnosis=replace(draft.diagnosis, disagreement=comparison(draft)), sentence=sentence(draft))
 
 

@@ -147,12 +147,17 @@ def residual(summary):
     parts = []
     drift, _, direction = summary.largest_drift("residual_drift")
     if not summary.collapsed and summary.largest_drift()[0] >= verdict.DAMAGE.drift:
-        loss = f" beyond the {verdict.LOSS.name} of {verdict.LOSS.ratio}" * (drift >= verdict.LOSS.drift)
-        parts.append(f"residual drift {directed(drift, direction)}{loss}")
+        loss = f" beyond the {verdict.LOSS.name} of {verdict.LOSS.ratio}" * (summary.main.verdict == verdict.TOTAL_LOSS)
+        parts.append(f"{residual_name(summary)} {directed(drift, direction)}{loss}")
     if summary.still_moving and not summary.collapsed:
         amplitude, _, direction = summary.largest_drift("final_amplitude")
         parts.append(f"still moving by ±{directed(amplitude, direction)}")
     return ", ".join(parts)
+
+
+def residual_name(summary):
+    """Name of the drift at the end."""
+    return "residual drift" if summary.main.settled else "drift at the end"
 
 
 def structures(summary):

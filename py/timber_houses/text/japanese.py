@@ -70,7 +70,8 @@ def outcome(summary):
         return f"{summary.collapse_time_s:.1f} 秒に倒壊"
     drift, storey, direction = summary.largest_drift()
     left = summary.largest_drift("residual_drift")[0]
-    residual = f"、残留変形角 {below(left)}" if drift >= DAMAGE.drift else ""
+    name = "残留変形角" if summary.main.settled else "終了時の変形角"
+    residual = f"、{name} {below(left)}" if drift >= DAMAGE.drift else ""
     peak = (f"{ratio(drift, '')}（{direction_name(direction)}、{storey.removeprefix('storey')} 階）" if drift >= SMALL
             else "1/1000 未満")
     lean = "（最後に傾いている）" if summary.main.leans else ""

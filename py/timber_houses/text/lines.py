@@ -4,7 +4,8 @@ from ..base.gravity import weight_of
 from ..recording import verdict
 from ..recording.history import DIRECTIONS
 from ..recording.quantities import BAND_TEXT
-from .english import at, counted, directed, direction_name, event, joints, mode_name, period_text, ratio, storey_name
+from .english import (at, counted, directed, direction_name, event, joints, mode_name, period_text, ratio,
+                      residual_name, storey_name)
 
 MOST = 10
 """Number of lines."""
@@ -52,14 +53,14 @@ def drifts(summary):
     if summary.collapsed:
         return ""
     peak, storey, direction = summary.largest_drift()
-    left, _, side = summary.largest_drift("residual_drift")
+    drift, _, side = summary.largest_drift("residual_drift")
     moving = "; still moving at the end" if summary.still_moving else ""
     columns = ""
     if summary.largest_at_columns:
         at_column, _, axis, median = summary.largest_at_columns
         columns = f" of the centre, {directed(at_column, axis)} at a column (median {ratio(median)})"
-    return (f"Largest storey drift {directed(peak, direction)} in {storey_name(storey)}{columns}, residual drift"
-            f" {directed(left, side)}{moving}.")
+    return (f"Largest storey drift {directed(peak, direction)} in {storey_name(storey)}{columns},"
+            f" {residual_name(summary)} {directed(drift, side)}{moving}.")
 
 
 def forces(quantities):

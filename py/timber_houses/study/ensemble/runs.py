@@ -7,6 +7,7 @@ from ...base.lock import is_locked
 from ...pictures import all_pictures
 from ...recording.ensemble import run_folder
 from ..driver import LOG, Task, run_missing
+from ..probe import estimate
 from . import results
 
 FEWEST = 2
@@ -25,6 +26,9 @@ def complete(options):
     Raises RunError, also when some runs have failed, KeyboardInterrupt after a signal, when checkpoints are saved.
     """
     planned = tasks(options)
+    missing = [task for task in planned if task.is_missing(True)]
+    if missing:
+        options.say(estimate(missing[0], len(missing), options.jobs))
     summaries = run_missing(planned, options.jobs, options.say)
     done = {k: summaries[task] for k, task in enumerate(planned, 1) if summaries[task] is not None}
     errors = {k: task.error or _reason(task) for k, task in enumerate(planned, 1) if k not in done}

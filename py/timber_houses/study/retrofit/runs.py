@@ -11,6 +11,7 @@ from ...text.english import counted
 from ..batch import Row, check_rows, run_rows, write_runs
 from ..batch.tasks import task_of
 from ..driver import about
+from ..probe import estimate
 from .candidates import AS_IT_IS
 from .race import Entry, cost, rounds, select
 
@@ -52,6 +53,11 @@ class Ranking:
         rows = self._rows([(AS_IT_IS, motion) for motion in self.motions]
                           + [(candidate, self.motions[0]) for candidate in self.candidates])
         check_rows(rows, self.folder)
+
+    def estimate(self, pilots):
+        """A line about the computing time. pilots: whether the strength of the motions is chosen, once at least"""
+        count = cost(len(self.motions), len(self.candidates)) + (PILOTS if pilots else 0)
+        return estimate(self.task(self.house, self.motions[0][0]), count, self.jobs)
 
     def choose_scale(self, report=print):
         """Scale the motions so that half of the pilots bring the house down, by bisection; returns a sentence."""
