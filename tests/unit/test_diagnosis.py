@@ -89,6 +89,17 @@ def test_uplift():
     assert diagnosis("C2")["structures"]["main"]["uplift"]["too_weak"] > 0
 
 
+@pytest.mark.parametrize("n, number, share", [(1.8, 1, 0.67), (2.8, 1, 1), (3.7, 2, 0.67), (4.7, 2, 0.84), (5.6, 2, 1)])
+def test_hold_downs_of_an_n_value(tmp_path, n, number, share):
+    """Those of docs/house_files.md allow the tension of N, at most 1 kN more; a strength that yields is not allowed."""
+    path = tmp_path / "held.yaml"
+    rule = f"{{type: hold_down, number: {number}, share: {share}}}"
+    path.write_text(f"extends: tiled_house\nname: held\njoints: {{column_ends: {rule}}}\n")
+    uplift = diagnose(build_house(load_house(path)))["structures"]["main"]["uplift"]
+    assert 5.3 * n <= uplift["fitting_kn"] < 5.3 * n + 1
+    assert (uplift["too_weak"] > 0) == (uplift["fitting_kn"] < uplift["largest_kn"])
+
+
 def test_rules():
     assert [brace_multiplier(section)
             for section in ((0.09, 0.045), (0.03, 0.09), (0.09, 0.09), (0.045, 0.045))] == [2.0, 1.5, 3.0, 0.0]

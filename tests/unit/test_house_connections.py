@@ -84,3 +84,14 @@ def test_values_of_the_slip_law_reach_the_joint(tmp_path):
     assert (joint.law, joint.friction_share, joint.softening_stretch,
             joint.ultimate_stretch) == ("slip", 0.3, 0.15, 0.2)
     assert of_kind(build_house(load_house("B")), "column_beam")[0].law == "brittle"
+
+
+def test_hold_down(tmp_path):
+    """One spring at the axis of the column, with all of the fitting's strength."""
+    model = built(tmp_path, "joints: {column_ends: {type: hold_down, number: 2, share: 0.67}}", "tiled_house")
+    joints = [joint for joint in model.joints if joint.type == "hold_down"]
+    assert joints and all(joint.points.shape == (1, 3) for joint in joints)
+    for joint in joints:
+        column = model.element(joint.a)
+        assert joint.points[0][:2] == pytest.approx(column.solid.centroid[:2], abs=1e-9)
+    assert sum(j.strength for j in joints if j.a == joints[0].a and j.end == "bottom") == pytest.approx(26800)

@@ -216,6 +216,15 @@ def test_finishes_are_taken_off(tmp_path):
     assert diagnose(bare)["wall_quantity_ratio"] == diagnose(model)["wall_quantity_ratio"]
 
 
+@pytest.mark.parametrize("name, kept", [("storehouse", set()), ("l_house", set()), ("tiled_house", {"plywood"})])
+def test_shipped_houses_without_finishes(tmp_path, name, kept):
+    path = tmp_path / "bare.yaml"
+    path.write_text(f"extends: {name}\nname: bare\nfinishes: false\n")
+    with_finishes, without = ({joint.sheet.type for joint in sheets(build_house(load_house(house)))}
+                              for house in (name, path))
+    assert with_finishes > kept == without
+
+
 def test_walls_that_cover_a_part_of_the_height(tmp_path):
     """0.6 times the share of the height, of wood lath this share alone; as a bearing wall not counted."""
     lath = [sheets(house(tmp_path, f"{{along: x, at: 4, from: 0, to: 1, type: lath_plaster, storeys: 1{end}}}"))[0]
@@ -228,20 +237,6 @@ def test_walls_that_cover_a_part_of_the_height(tmp_path):
     quantity = [diagnose(model)["structures"]["main"]["storeys"]["1"]["directions"]["ew"]["bearing_m"]
                 for model in (part, build_house(load_house("C")))]
     assert quantity[0] == quantity[1]
-
-
-def test_hold_down(tmp_path):
-    """One spring at the axis of the column, with all of the fitting's strength."""
-    path = tmp_path / "held.yaml"
-    rule = "{type: hold_down, number: 2, share: 0.67}"
-    path.write_text(f"extends: tiled_house\nname: held\njoints: {{column_ends: {rule}}}\n")
-    model = build_house(load_house(path))
-    joints = [joint for joint in model.joints if joint.type == "hold_down"]
-    assert joints and all(joint.points.shape == (1, 3) for joint in joints)
-    for joint in joints:
-        column = model.element(joint.a)
-        assert joint.points[0][:2] == pytest.approx(column.solid.centroid[:2], abs=1e-9)
-    assert sum(j.strength for j in joints if j.a == joints[0].a and j.end == "bottom") == pytest.approx(26800)
 
 
 def test_several_sheets_of_a_bay(tmp_path):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Damping and base shear of scripts/validation/ubc3s.py: Rayleigh damping of PB3D, and a free body on the ground."""
+"""scripts/validation/ubc3s.py: Rayleigh damping of PB3D, a free body on the ground, stored drifts."""
+import csv
 import sys
 from pathlib import Path
 from types import SimpleNamespace
@@ -7,7 +8,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts" / "validation"))
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "scripts" / "validation"))
 
 import ubc3s
 
@@ -39,3 +41,19 @@ def test_dashpots_of_masses():
     assert state.vel == pytest.approx((left * 0.3, left * -0.2, 0.1))
     assert state.angVel == pytest.approx((0.4, 0.5, left * -0.6))
     assert made.last == pytest.approx(2.0 * np.array(state.vel[:2]))
+
+
+def test_stored_drifts_beside_those_of_pb3d(monkeypatch):
+    """Storeys 1 and 2: at most 25 % from PB3D's, 15 % in the mean over scales and directions."""
+    folder = ROOT / "docs" / "validation"
+    monkeypatch.setattr(ubc3s, "REFERENCE", folder / "ubc3s_reference.csv")
+    known, off = ubc3s.reference(), []
+    for row in csv.DictReader((folder / "ubc3s.csv").read_text().splitlines()):
+        key = float(row["scale"]), int(row["storey"]), row["direction"]
+        other = known[key][0]
+        assert float(row["pb3d_peak_centre_mm"]) == other
+        ratio = float(row["peak_centre_mm"]) / other
+        assert float(row["ratio"]) == pytest.approx(ratio, abs=0.005 + 0.05 / other)  # both are rounded
+        if key[1] < 3:
+            off.append(abs(float(row["ratio"]) - 1))
+    assert len(off) == 8 and max(off) <= 0.25 and np.mean(off) <= 0.15

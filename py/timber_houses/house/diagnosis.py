@@ -327,10 +327,11 @@ def _difference(column, bays, axis):
 
 
 def _foot_strengths(model):
-    """{column: strength of its joints at the foot in tension [kN]}; broken joints have none."""
+    """{column: allowable tension of its joints at the foot [kN]}; broken joints have none."""
     strengths = {}
     for joint in model.joints:
         if joint.end == "bottom" and joint.kind not in WALL_KINDS and model.element(joint.a).kind == "column":
             whole = joint.strength * (1 if joint.per == "joint" else len(joint.points))
-            strengths[joint.a] = strengths.get(joint.a, 0.0) + (0.0 if joint.broken else whole / 1000)
+            allowable = whole * (rules.ALLOWABLE_YIELD if joint.law == "slip" else 1.0)
+            strengths[joint.a] = strengths.get(joint.a, 0.0) + (0.0 if joint.broken else allowable / 1000)
     return strengths

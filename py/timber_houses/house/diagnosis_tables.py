@@ -48,6 +48,8 @@ QUARTER_RATIO = 0.5
 """Least ratio of opposite quarters, one of them below 1. [-] (Notification 1352 of 2000; compared: what-myhome.net)"""
 UPLIFT_KN = 5.3
 """Tension of N = 1: 1.96 kN/m over 2.7 m. [kN] (Notification 1460 of 2000, N-value method; compared: stmaki.com)"""
+ALLOWABLE_YIELD = 0.75
+"""Allowable tension of a fitting over its mean yield force, the strength with law `slip`. [-] (docs/theory.md, 4)"""
 RESTRAINT = {True: 0.8, False: 0.5}
 """B of a corner column (True) or another one. [-] (N-value method; compared: mokuzou.com)"""
 VERTICAL = {"top": {True: 0.4, False: 0.6}, "lower": {True: 1.0, False: 1.6}}
