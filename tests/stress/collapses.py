@@ -23,7 +23,7 @@ from timber_houses.house.loader import shipped_houses
 from timber_houses.motion import default_motion, synthetic_motion
 from timber_houses.motion.processing import trim
 from timber_houses.scene import scenario
-from yade_timber.scene import queries
+from yade_timber.plugin import compiled
 from yade_timber.scene.engines import find_engine
 
 O = yw.Omega()
@@ -210,7 +210,7 @@ def judged(name, watch, error, wall, terms):
     """Outcome of the run that is loaded. wall [s]; terms: of the energy balance [J]"""
     forces = find_engine(yw.ContactForces)
     supplied = terms.get("ground_motion", 0.0) + terms["imposed_velocity"] - terms["gravity"]
-    energies = {"change": forces.worstChange, "created": queries.created_energy(), "negative": watch.fall}
+    energies = {"change": forces.worstChange, "created": compiled.created_energy(), "negative": watch.fall}
     energies["residual"] = abs(yt.energy_residual(terms))
     shares = {name: value / supplied if supplied > 0 else math.inf for name, value in energies.items()}
     counts = {"sweeps": forces.sweepsDone / max(1, O.iter), "unconverged": forces.unconverged}

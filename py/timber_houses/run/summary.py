@@ -42,7 +42,7 @@ def summary(scenario, observed, tables, wall_s, made_from, cut_off=None):
     residual, amplitude = drift.residual(history)
     simulated = round(O.iter * scenario.dt, 9)
     structures = survey.by_structure(state, observed.peaks)
-    created = queries.created_energy()
+    created = compiled.created_energy()
     energy = (energy_balance(queries.energy(), created) if cut_off is None
               else energy_balance(last_energies(history), _finite(created)))
     draft = Summary(
@@ -95,7 +95,7 @@ def last_energies(history):
 
 
 def energy_balance(terms, created):
-    """The part `energy` [J] from the terms of `queries.energy`. created: queries.created_energy(), None if unknown
+    """The part `energy` [J] from the terms of `queries.energy`. created: `compiled.created_energy()`, None if unknown
 
     input: work of the ground motion, energy of imposed velocities and potential energy released by gravity since the
     start. residual: stored, kinetic and dissipated energy minus the input; residual_fraction: its absolute value over

@@ -90,11 +90,6 @@ def energy():
     return Energies(compiled.energy() | {IMPOSED: imposed})
 
 
-def created_energy():
-    """Energy that contacts and joints have returned beyond what they had stored, so far. [J]"""
-    return compiled.created_energy()
-
-
 def energy_residual(terms=None):
     """Residual of the energy balance; zero at the start of a scene at rest, also after `set_velocity`.
 
