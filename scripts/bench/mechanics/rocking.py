@@ -121,7 +121,9 @@ def late_tilt(radius):
 
 
 def late_ratio(run, radius):
-    """Largest tilt in the last second over the closed form."""
+    """Largest tilt in the last second over the closed form; infinite if the column never was upright."""
+    if not math.isfinite(time_to_upright(run)):
+        return math.inf
     return float(abs(tilts(run)[run.times > 3.0]).max() / late_tilt(radius))
 
 

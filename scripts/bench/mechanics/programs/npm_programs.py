@@ -17,6 +17,11 @@ def rapier(name="Rapier", more="", **options):
                           **options)
 
 
+def havok(name="Havok", more="", **options):
+    return engine_program("havok", name, "@babylonjs/havok", "damping 0, ideal step set" + more, lacks=(UNBREAKABLE,),
+                          **options)
+
+
 def cannon():
     return engine_program("cannon", "cannon-es", "cannon-es", "damping 0, created unrotated",
                           lacks=(UNBREAKABLE,))
@@ -38,6 +43,10 @@ def rapier_safe():
     return rapier("Rapier, awake", ", no sleeping", options=AWAKE)
 
 
+def havok_safe():
+    return havok("Havok, awake", ", no sleeping", options=AWAKE)
+
+
 def bullet_safe():
     return bullet("Bullet, awake", ", no sleeping", options=AWAKE)
 
@@ -46,6 +55,9 @@ def mujoco_safe():
     return mujoco("MuJoCo, elliptic", "elliptic cone, RK4", options=MUJOCO_SAFE)
 
 
-def physx():
-    return engine_program("physx", "PhysX", "physx-js-webidl", "damping 0",
-                          lacks=(("forces", "not run: contact reports"),))
+def physx(name="PhysX", more="", **options):
+    return engine_program("physx", name, "physx-js-webidl", "damping 0" + more, **options)
+
+
+def physx_safe():
+    return physx("PhysX, awake", ", no sleeping", options=AWAKE)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Runs one scene of boxes in ODE. Reads it from the standard input as ode.py writes it; prints, for each sample, the time,
+// Runs one scene of boxes in ODE. Reads it from the standard input as compiled.py writes it; prints, for each sample, the time,
 // the contact force on the weighed body [N], and 13 numbers a body: position, orientation (w, x, y, z), velocity, spin.
 #include <cmath>
 #include <cstdio>

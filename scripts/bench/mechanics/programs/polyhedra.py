@@ -6,6 +6,7 @@ of 0.2 changes friction and free motion.
 """
 import itertools
 import math
+import time
 
 import numpy as np
 import yade.config
@@ -19,6 +20,8 @@ from mechanics.scene import Recorder, hull_volume, sampling, shaking_motion
 O = yw.Omega()
 YOUNG = 1e9
 """Force over overlap volume. [N/m3]"""
+LONGEST = 40
+"""Of a run. [s of processor time]"""
 
 
 def corners_of(body):
@@ -96,10 +99,13 @@ def run(scene, dt):
     if 0 < scene.restitution < 1:
         raise NotPossible("no restitution below 1")
     ids = place(scene, dt)
+    since = time.process_time()
     every, count = sampling(scene, dt)
     recorder = Recorder(scene, state_of(scene, ids))
     recorder.sample(0.0, support(scene, ids))
     for k in range(count):
+        if time.process_time() - since > LONGEST:
+            raise NotPossible(f"no end in {LONGEST} s of processor time")
         drive(scene, ids, k * dt)
         O.step()
         if (k + 1) % every == 0 or k + 1 == count:

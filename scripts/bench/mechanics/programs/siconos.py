@@ -18,7 +18,7 @@ from siconos.io.mechanics_run import MechanicsHdf5Runner
 from siconos.mechanics.collision.tools import Contactor
 
 from mechanics.falling import matrices
-from mechanics.program import NotPossible, NotRun, Program
+from mechanics.program import NotPossible, Program
 from mechanics.scene import Trajectory, box_inertia, sampling
 
 MARGIN = 1e-3
@@ -43,7 +43,7 @@ def quiet():
 
 
 def late(*_):
-    raise NotRun(f"no end in {LONGEST} s of processor time")
+    raise NotPossible(f"no end in {LONGEST} s of processor time")
 
 
 @contextmanager

@@ -27,7 +27,7 @@ function geometryOf(body) {
   return new P.PxConvexMeshGeometry(top.CreateConvexMesh(new P.PxCookingParams(tolerances), desc));
 }
 
-function create(scene, material, world, body) {
+function create(scene, material, world, body, options) {
   const shape = physics.createShape(geometryOf(body), material, true, flags);
   shape.setSimulationFilterData(new P.PxFilterData(1, 1, 0, 0));
   const pose = frame(body.position, body.orientation), moves = body.mass !== null || body.shaken;
@@ -36,6 +36,7 @@ function create(scene, material, world, body) {
   if (body.mass !== null) {
     P.PxRigidBodyExt.prototype.setMassAndUpdateInertia(made, body.mass);
     made.setLinearDamping(0);
+    if (options.awake) made.setSleepThreshold(0);
     made.setAngularDamping(0);
     made.setLinearVelocity(vec(body.velocity), true);
     made.setAngularVelocity(vec(body.spin), true);
@@ -65,21 +66,41 @@ function constraint(joint, scene, made) {
   return result;
 }
 
-function make(scene, dt) {
+// Contact impulses of a step, which callbacks alone report.
+function reporting(desc) {
+  const shader = new P.PassThroughFilterShaderImpl(), events = new P.PxSimulationEventCallbackImpl(), points = new P.PxArray_PxContactPairPoint(64), found = { sum: 0 };
+  const wanted = ['eCONTACT_DEFAULT', 'eNOTIFY_TOUCH_FOUND', 'eNOTIFY_TOUCH_PERSISTS', 'eNOTIFY_CONTACT_POINTS'];
+  shader.filterShader = () => { shader.outputPairFlags = wanted.reduce((sum, name) => sum | P.PxPairFlagEnum[name], 0); return 0; };
+  for (const name of ['onConstraintBreak', 'onWake', 'onSleep', 'onTrigger']) events[name] = () => {};
+  events.onContact = (header, first, count) => {
+    for (let k = 0; k < count; k++) {
+      const pair = P.NativeArrayHelpers.prototype.getContactPairAt(P.wrapPointer(first, P.PxContactPair), k);
+      const number = pair.extractContacts(points.begin(), 64);
+      for (let i = 0; i < number; i++) found.sum += Math.abs(points.get(i).impulse.z);
+    }
+  };
+  top.setupPassThroughFilterShader(desc, shader);
+  desc.simulationEventCallback = events;
+  return found;
+}
+
+function make(scene, dt, options) {
   const desc = new P.PxSceneDesc(tolerances);
   desc.gravity = vec([0, 0, -scene.gravity]);
   desc.cpuDispatcher = top.DefaultCpuDispatcherCreate(0);
   desc.filterShader = top.DefaultFilterShader();
+  const found = scene.weighed ? reporting(desc) : null;
   const world = physics.createScene(desc), material = physics.createMaterial(scene.friction, scene.friction, scene.restitution), made = {};
   for (let k = 0; k < scene.removed; k++) {
-    const extra = create(scene, material, world, { extents: [0.3, 0.3, 0.3], position: [50 + k, 0, 5], orientation: [1, 0, 0, 0], mass: 1, velocity: [0, 0, 0], spin: [0, 0, 0] });
+    const extra = create(scene, material, world, { extents: [0.3, 0.3, 0.3], position: [50 + k, 0, 5], orientation: [1, 0, 0, 0], mass: 1, velocity: [0, 0, 0], spin: [0, 0, 0] }, options);
     world.removeActor(extra);
     extra.release();
   }
-  for (const body of scene.bodies) made[body.name] = create(scene, material, world, body);
+  for (const body of scene.bodies) made[body.name] = create(scene, material, world, body, options);
   const joints = scene.joints.map((joint) => constraint(joint, scene, made));
   return {
-    step: () => { world.simulate(dt); world.fetchResults(true); },
+    step: () => { if (found) found.sum = 0; world.simulate(dt); world.fetchResults(true); },
+    support: () => found.sum / dt,
     state: (name) => {
       const body = made[name], pose = body.getGlobalPose(), q = pose.q, still = named(scene, name).mass === null;
       const speeds = still ? [[0, 0, 0], [0, 0, 0]] : [list(body.getLinearVelocity()), list(body.getAngularVelocity())];
