@@ -9,6 +9,7 @@ import resource
 import signal
 import sys
 import warnings
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -346,6 +347,12 @@ def _beside(folder, file):
     return folder / name
 
 
+@cache
+def _built(house):
+    """HouseModel of a shipped house, or of the file beside the towns, which is always the same."""
+    return build_house(load_house(house))
+
+
 def use_town(folder, file):
     """Read a town and place its houses; None or the message of refusal. file: (name, content)"""
     path = _beside(folder, file)
@@ -353,7 +360,7 @@ def use_town(folder, file):
     def use():
         lots = load_town(path).lots
         if len(lots) <= 3:
-            check_places([(lot, build_house(load_house(lot.house))) for lot in lots])
+            check_places([(lot, _built(lot.house)) for lot in lots])
 
     return _refusal(use)
 

@@ -10,6 +10,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
 
 from timber_houses.base.encoding import print_anything
 from timber_houses.base.errors import InputError
+from timber_houses.base.input_file import is_folder
 
 print_anything()
 
@@ -40,7 +41,7 @@ def frames_path(run):
     """The frames of what RECORDED says."""
     from timber_houses.recording import frames
 
-    return run / frames.NAME if run.is_dir() else run
+    return run / frames.NAME if is_folder(run) else run
 
 
 RECORDED = "folder of a run's results, its frames.h5, or a log of yt.record"

@@ -15,6 +15,7 @@ matplotlib.style.use("default")  # whatever the matplotlibrc of the user says
 
 from timber_houses.base.atomic_write import write_text, written_whole
 from timber_houses.base.errors import RunError
+from timber_houses.base.input_file import is_file
 from timber_houses.base.table import csv_text
 from timber_houses.study.batch import run_rows, write_runs
 from timber_houses.study.options import Parser, add_driver_options, non_negative, positive, results_folder
@@ -37,7 +38,7 @@ def parser(about, folder):
 
 def house_name(text):
     """Name of a shipped house, or absolute path of a house file. For argparse."""
-    return str(Path(text).resolve()) if Path(text).is_file() else text
+    return str(Path(text).resolve()) if is_file(text) else text
 
 
 def run_all(rows, options):

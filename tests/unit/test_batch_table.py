@@ -15,7 +15,7 @@ sys.path.append(str(Path(__file__).resolve().parents[2] / "py"))
 from summaries import sample_summary
 from timber_houses.base.errors import RunError
 from timber_houses.recording.events import Event, StructureFallen, Tilt
-from timber_houses.study.batch import BatchError, read_table, write_runs
+from timber_houses.study.batch import BatchError, check_rows, read_table, write_runs
 from timber_houses.study.batch.collect import RESULTS
 from timber_houses.study.batch.tasks import task_of
 from timber_houses.run.identity import made_from
@@ -221,3 +221,10 @@ def test_a_table_in_another_encoding(tmp_path):
     (tmp_path / "a.csv").write_bytes("house,description\nB,\u57fa\u6e96\n".encode("cp932"))
     with pytest.raises(BatchError, match="save it as UTF-8"):
         read_table(tmp_path / "a.csv")
+
+
+def test_a_house_of_too_long_a_name_is_one_that_is_not_there(tmp_path, table):
+    """The system refuses such a path; the house is refused when the rows are checked."""
+    (row,) = table(f"house snow\n{'9' * 400} 1\n")
+    with pytest.raises(BatchError, match="runs.txt:2"):
+        check_rows([row], tmp_path)

@@ -9,7 +9,7 @@ import csv
 import re
 from pathlib import Path
 
-from ...base.input_file import read_bytes
+from ...base.input_file import is_file, read_bytes
 from ...base.options import read
 from ...base.remedies import nearest
 from ...run.options import OptionSource, RunOptions
@@ -84,7 +84,7 @@ def _row(cells, path, number):
 
 def _house(name, folder):
     """Name of a shipped house, or path of a house file; relative paths are relative to the table's folder."""
-    is_path = "/" in name or name.endswith((".yaml", ".yml")) or (folder / name).is_file()
+    is_path = "/" in name or name.endswith((".yaml", ".yml")) or is_file(folder / name)
     return str(folder / name) if is_path else name
 
 

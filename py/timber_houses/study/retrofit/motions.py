@@ -5,6 +5,7 @@ from itertools import groupby
 from pathlib import Path
 
 from ...base.errors import RunError
+from ...base.input_file import is_folder
 from ...base.notes import noted
 from ...base.time_step import DEFAULT_DT
 from ...motion import MotionRequest, RecordError, onset, significant_duration
@@ -31,7 +32,7 @@ def seeds(count, target=None, end=END):
 def records(folder, target=None, units=None):
     """[(name, {option: value})] of the records in a folder, cut to their strong shaking. units: if files state none"""
     folder = Path(folder).resolve()
-    if not folder.is_dir():
+    if not is_folder(folder):
         raise RunError(f"{folder}: no such folder of records")
     files = sorted(path for path in folder.iterdir()
                    if path.suffix.lower() in RECORD_FILES and not _is_other_table(path))
