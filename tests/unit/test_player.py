@@ -210,15 +210,16 @@ def test_the_japanese_result_judges_all_structures():
 
 
 def test_the_japanese_result_has_all_warnings():
-    found = sample_summary(peak_drift={"storey1": {"ns": 0.3, "ew": 0.01}}, residual_drift={
-        "storey1": {"ns": 0.2, "ew": 0.01}
-    }, columns={"total": 90, "fallen": 1,
-                "loose": 3}, still_moving=True, final_amplitude={"storey1": {"ns": 0.02, "ew": 0.0}}, snow=True,
+    drifts = {"peak_drift": {"storey1": {"ns": 0.3, "ew": 0.01}},
+              "residual_drift": {"storey1": {"ns": 0.2, "ew": 0.01}}}
+    assert "全壊（最後に傾いている）" in japanese.result(sample_summary(**drifts))
+    found = sample_summary(**drifts, columns={"total": 90, "fallen": 1, "loose": 3}, still_moving=True,
+                           final_amplitude={"storey1": {"ns": 0.02, "ew": 0.0}}, snow=True,
                            record={"onset_s": 18.8}, duration_s=15.0, structures={
                                "entrance": Structure(broken=2, peak_drift=5e-4)
                            }, events=[Event(12.0, ColumnsLost(1, 90)),
                                       Event(13.5, SnowFallen("", "west", "roof"))])
-    parts = ("全壊（最後に傾いている）", "なお ±1/50（南北）で揺れている", "柱 90 本のうち1 本が倒れた、3 本が外れた（12.0 秒から）", "雪は 13.5 秒から落下",
+    parts = ("終了時の変形角 1/5", "なお ±1/50（南北）で揺れている", "柱 90 本のうち1 本が倒れた、3 本が外れた（12.0 秒から）", "雪は 13.5 秒から落下",
              "強い揺れ（18.8 秒）の前に計算を終了", "玄関は補修可能（最大層間変形角 1/1000 未満）")
     assert [part for part in parts if part not in japanese.result(found)] == [], japanese.result(found)
 
