@@ -30,6 +30,7 @@ def test_row_is_within_its_bound(row):
     assert (error <= 1) == (row.key not in KNOWN_MISSES), f"{error:.3g} of the bound"
 
 
+@pytest.mark.rare
 @pytest.mark.parametrize("row", table(), ids=lambda row: row.key)
 def test_a_falsified_scene_is_outside_the_bound(row):
     """At a step at which the true scene is within it."""
