@@ -270,6 +270,8 @@ constexpr double stiffToleranceShare = 0.1;
 
 /// Newton's method of a stiff joint ends when the residual of its modal velocities is this share of them. [-]
 constexpr double springTolerance = 1e-13;
+/// Part of the residual that a step with an earlier slope may leave. [-] Linear springs leave rounding alone.
+constexpr double lastSlopeReduction = 1e-3;
 /// Its largest number of iterations; linear springs need one, springs that yield two to six. [-]
 constexpr int springIterations = 30;
 /// Smallest share of a Newton step that is tried. [-]

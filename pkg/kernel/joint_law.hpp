@@ -153,6 +153,7 @@ public:
 	BrittleSprings(const JointStiffness&, const JointStrength&, const Vec3& normal);
 	SpringState trial(size_t spring, const Vec3& to) const override;
 	SpringState commit(size_t spring, const Vec3& to) override { return trial(spring, to); }
+	bool isLinear() const override { return true; }
 	/// With P_max of the joint, the forces beyond it fall by the same number: the closest ones in terms of energy.
 	double limit(std::vector<SpringState>& states, std::vector<Vec3>& shared) const override;
 };

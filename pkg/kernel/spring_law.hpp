@@ -33,6 +33,8 @@ public:
 	virtual bool isSpent(size_t) const { return false; }
 	/// Largest rate at which the force of the first loading falls with the stretch; 0: it never does. [N/m]
 	virtual double steepestFall() const { return 0; }
+	/// Whether forces are linear in the stretches up to the strength.
+	virtual bool isLinear() const { return false; }
 	bool keepsForce = true; ///< the step does not resolve the fall of the force
 	/// Applies a strength that the springs share to trial states. shared: out, unit vectors of the forces that it
 	/// limits, of each spring. Returns kappa: the tangent of all forces is that of the states minus kappa s s^T

@@ -133,10 +133,27 @@ Mat6 SpringSteps::slope(const ModalStep& step, double kappa) const
 	return matrix;
 }
 
+/// A step from `after` with the slope of an earlier one. Returns whether r falls to lastSlopeReduction of itself.
+bool SpringSteps::followLastSlope(const ModalStep& step, const Vec6& free, Vec6& after, NewtonPoint& point)
+{
+	const Vec6 last = after;
+	after -= inverseSlope * point.residual;
+	const double kappa = tryStretches(step.h, after);
+	const Vec6 r = residual(step, free, after);
+	hasSlope = r.norm() < lastSlopeReduction * point.residual.norm();
+	if (hasSlope) point = { r, kappa };
+	else point.kappa = tryStretches(step.h, after = last);
+	return hasSlope;
+}
+
 /// A Newton step from `after`, shortened until r falls. Returns whether it does.
 bool SpringSteps::improve(const ModalStep& step, const Vec6& free, Vec6& after, NewtonPoint& point)
 {
-	const Vec6 change = slope(step, point.kappa).ldlt().solve(point.residual), last = after;
+	if (hasSlope && followLastSlope(step, free, after, point)) return true;
+	const Eigen::LDLT<Mat6> factors(slope(step, point.kappa));
+	hasSlope = law->isLinear();
+	if (hasSlope) inverseSlope = factors.solve(Mat6::Identity());
+	const Vec6 change = factors.solve(point.residual), last = after;
 	for (double share = 1; share > springLeastShare; share /= 2) {
 		after = last - share * change;
 		const double kappa = tryStretches(step.h, after);

@@ -66,6 +66,8 @@ class SpringSteps {
 	std::vector<SpringState> states; ///< of the springs at z1
 	std::vector<Vec3> shared; ///< of SpringLaw::limit()
 	Vec6 applied = Vec6::Zero(); ///< q_a
+	Mat6 inverseSlope; ///< of (3), of the last Newton step of linear springs: it serves until they reach the strength
+	bool hasSlope = false;
 
 	/// r of (3), and kappa of SpringLaw::limit().
 	struct NewtonPoint {
@@ -76,6 +78,7 @@ class SpringSteps {
 	double tryStretches(double h, const Vec6& after);
 	Vec6 residual(const ModalStep& step, const Vec6& free, const Vec6& after) const;
 	Mat6 slope(const ModalStep& step, double kappa) const;
+	bool followLastSlope(const ModalStep& step, const Vec6& free, Vec6& after, NewtonPoint& point);
 	bool improve(const ModalStep& step, const Vec6& free, Vec6& after, NewtonPoint& point);
 	Vec6 withinAccount(const ModalStep& step, const Vec6& free, const Vec6& impulse) const;
 
