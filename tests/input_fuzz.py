@@ -413,3 +413,8 @@ def _refusal(use):
         signal.signal(signal.SIGPROF, previous)
     assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss < MEMORY
     return message
+
+
+KINDS = {"houses": (house_files, use_house), "records": (record_files, use_record), "towns": (town_files, use_town),
+         "tables": (table_files, use_table), "options": (motion_options, use_options)}
+"""{name: (examples, use(folder, example))}"""

@@ -270,12 +270,13 @@ constexpr double stiffToleranceShare = 0.1;
 
 /// Newton's method of a stiff joint ends when the residual of its modal velocities is this share of them. [-]
 constexpr double springTolerance = 1e-13;
-/// Part of the residual that a step with an earlier slope may leave. [-] Linear springs leave rounding alone.
-constexpr double lastSlopeReduction = 1e-3;
 /// Its largest number of iterations; linear springs need one, springs that yield two to six. [-]
 constexpr int springIterations = 30;
 /// Smallest share of a Newton step that is tried. [-]
 constexpr double springLeastShare = 1e-3;
+/// Part of the residual up to which a step with the slope of an earlier one is taken. [-] Linear springs leave rounding
+/// alone; larger: more iterations once a spring reaches its strength.
+constexpr double lastSlopeReduction = 1e-3;
 
 /// Rotation of a joint's bodies against each other from which on its vibration modes are computed again. [rad] The
 /// modes vary only with it.

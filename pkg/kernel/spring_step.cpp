@@ -142,7 +142,10 @@ bool SpringSteps::followLastSlope(const ModalStep& step, const Vec6& free, Vec6&
 	const Vec6 r = residual(step, free, after);
 	hasSlope = r.norm() < lastSlopeReduction * point.residual.norm();
 	if (hasSlope) point = { r, kappa };
-	else point.kappa = tryStretches(step.h, after = last);
+	else {
+		after = last;
+		tryStretches(step.h, after);
+	}
 	return hasSlope;
 }
 

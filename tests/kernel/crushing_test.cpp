@@ -170,7 +170,7 @@ TEST(BearingStrength, IsContinuousWhenPointsBegin)
 		        = pointsAt({ { a - r, b, 0 }, { r - a, b, 0 }, { a - r, -b, 0 }, { r - a, -b, 0 } });
 		points[2].overlap = points[3].overlap = phi * points[0].overlap;
 		const double width = bearingStrength(pressure, r, points).constant * 2 / pressure / (4 * a) - r;
-		EXPECT_NEAR(width, 2 * b * phi, 4 * b * phi * phi + 1e-9); // 1e-9: as above
+		EXPECT_NEAR(width, 2 * b * phi, 4 * b * phi * phi + 1e-9); // second order; 1e-9: as above
 	}
 }
 

@@ -13,17 +13,13 @@ from collections import Counter
 import pytest
 from hypothesis import HealthCheck, given, settings
 
-from input_fuzz import (house_files, motion_options, record_files, table_files, town_files, use_house, use_options,
-                        use_record, use_table, use_town)
+from input_fuzz import KINDS
 
 EXAMPLES = int(os.environ.get("YADE_TIMBER_FUZZ", 10_000))
 many = settings(max_examples=EXAMPLES, deadline=None, database=None, suppress_health_check=list(HealthCheck))
 
 
-@pytest.mark.parametrize("examples, use", [(house_files, use_house), (record_files, use_record),
-                                           (motion_options, use_options), (town_files, use_town),
-                                           (table_files, use_table)],
-                         ids=["houses", "records", "options", "towns", "tables"])
+@pytest.mark.parametrize("examples, use", KINDS.values(), ids=KINDS)
 def test_many(tmp_path, capsys, examples, use):
     counts, longest = Counter(), 0.0
 

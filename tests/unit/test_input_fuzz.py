@@ -6,10 +6,10 @@ of time and memory.
 Few examples; the long run is in tests/stress.
 """
 
+import pytest
 from hypothesis import HealthCheck, given, settings
 
-from input_fuzz import (SHED, TABLES, TOWNS, house_files, motion_options, record_files, record_texts, table_files,
-                        town_files, use_house, use_options, use_record, use_table, use_town)
+from input_fuzz import KINDS, SHED, TABLES, TOWNS, record_texts, use_house, use_options, use_record, use_table, use_town
 
 few = settings(max_examples=60, deadline=None, database=None, derandomize=True, suppress_health_check=list(HealthCheck))
 
@@ -24,31 +24,6 @@ def test_the_undamaged_files_are_used(tmp_path):
     assert [use_table(tmp_path, (name, text.encode())) for name, text in TABLES.items()] == [None] * 2
 
 
-@few
-@given(content=house_files)
-def test_house_files(tmp_path_factory, content):
-    use_house(tmp_path_factory.getbasetemp(), content)
-
-
-@few
-@given(content=record_files)
-def test_records(tmp_path_factory, content):
-    use_record(tmp_path_factory.getbasetemp(), content)
-
-
-@few
-@given(file=town_files)
-def test_towns(tmp_path_factory, file):
-    use_town(tmp_path_factory.getbasetemp(), file)
-
-
-@few
-@given(file=table_files)
-def test_tables(tmp_path_factory, file):
-    use_table(tmp_path_factory.getbasetemp(), file)
-
-
-@few
-@given(words=motion_options)
-def test_motion_options(tmp_path_factory, words):
-    use_options(tmp_path_factory.getbasetemp(), words)
+@pytest.mark.parametrize("examples, use", KINDS.values(), ids=KINDS)
+def test_damaged(tmp_path, examples, use):
+    few(given(examples)(lambda example: use(tmp_path, example)))()

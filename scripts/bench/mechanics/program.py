@@ -15,6 +15,14 @@ class NotPossible(Exception):
     """The program or its adapter has no result for the scene; the text says why."""
 
 
+LONGEST = 40
+"""Of a run. [s of processor time]"""
+
+
+def too_late():
+    return NotPossible(f"no end in {LONGEST} s of processor time")
+
+
 @dataclass(frozen=True)
 class Program:
     """run(scene, dt): Trajectory; raises NotPossible. steps: time steps of the column [s]. radius: rounding of

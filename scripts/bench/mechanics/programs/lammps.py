@@ -14,13 +14,11 @@ from pathlib import Path
 import numpy as np
 
 from mechanics.falling import matrices
-from mechanics.program import NotPossible, Program
+from mechanics.program import LONGEST, NotPossible, Program, too_late
 from mechanics.scene import Trajectory, box_inertia, sampling
 
 STIFFNESS, RADIUS = 1e7, 0.001
 """Of a contact point [N/m]; of the edges [m]."""
-LONGEST = 40
-"""Of a run. [s of processor time]"""
 SIGNS = np.array(list(itertools.product((-1, 1), repeat=3)))
 EDGES = [(i, j) for i, j in itertools.combinations(range(8), 2) if np.abs(SIGNS[i] - SIGNS[j]).sum() == 2]
 FACES = [(0, 1, 3, 2), (4, 5, 7, 6), (0, 1, 5, 4), (2, 3, 7, 6), (0, 2, 6, 4), (1, 3, 7, 5)]
@@ -138,7 +136,7 @@ def run(scene, dt):
         done = subprocess.run(["bash", "-c", f"ulimit -t {LONGEST}; exec lmp -in in.lmp"], cwd=folder,
                               capture_output=True, text=True, env={"OMP_NUM_THREADS": "1", "PATH": "/usr/bin:/bin"})
         if done.returncode in (-signal.SIGKILL, -signal.SIGXCPU):
-            raise NotPossible(f"no end in {LONGEST} s of processor time")
+            raise too_late()
         if done.returncode:
             raise RuntimeError([line for line in done.stdout.splitlines() if "ERROR" in line] or done.stderr)
         steps, rows = read_dump(Path(folder) / "out.dump", len(scene.bodies))

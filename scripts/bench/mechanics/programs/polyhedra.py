@@ -14,14 +14,12 @@ import yade.wrapper as yw
 from yade import polyhedra_utils
 from yade.minieigenHP import Quaternion, Vector3
 
-from mechanics.program import NotPossible, Program
+from mechanics.program import LONGEST, NotPossible, Program, too_late
 from mechanics.scene import Recorder, hull_volume, sampling, shaking_motion
 
 O = yw.Omega()
 YOUNG = 1e9
 """Force over overlap volume. [N/m3]"""
-LONGEST = 40
-"""Of a run. [s of processor time]"""
 
 
 def corners_of(body):
@@ -105,7 +103,7 @@ def run(scene, dt):
     recorder.sample(0.0, support(scene, ids))
     for k in range(count):
         if time.process_time() - since > LONGEST:
-            raise NotPossible(f"no end in {LONGEST} s of processor time")
+            raise too_late()
         drive(scene, ids, k * dt)
         O.step()
         if (k + 1) % every == 0 or k + 1 == count:

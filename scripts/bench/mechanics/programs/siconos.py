@@ -18,15 +18,13 @@ from siconos.io.mechanics_run import MechanicsHdf5Runner
 from siconos.mechanics.collision.tools import Contactor
 
 from mechanics.falling import matrices
-from mechanics.program import NotPossible, Program
+from mechanics.program import LONGEST, NotPossible, Program, too_late
 from mechanics.scene import Trajectory, box_inertia, sampling
 
 MARGIN = 1e-3
 """Inside margin of a shape [m]; its default, 0.04 in a box, rounds edges."""
 ITERATIONS, TOLERANCE = 1000, 1e-8
 JOINTS = {"weld": "FixedJointR", "ball": "KneeJointR", "hinge": "PivotJointR"}
-LONGEST = 40
-"""Of a run. [s of processor time]"""
 
 
 @contextmanager
@@ -43,7 +41,7 @@ def quiet():
 
 
 def late(*_):
-    raise NotPossible(f"no end in {LONGEST} s of processor time")
+    raise too_late()
 
 
 @contextmanager
