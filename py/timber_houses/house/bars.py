@@ -145,7 +145,7 @@ class Parts:
 
     def _plate(self, name, table):
         path = self.path(name)
-        corners = self._covering(table, path) if table["on"] else np.array(table["corners"])
+        corners = self._covering(table, path) if table["over"] else np.array(table["corners"])
         _, _, axes = np.linalg.svd(corners - corners.mean(0), full_matrices=False)
         normal, off = axes[2], (corners - corners.mean(0)) @ axes[2]
         if np.abs(off).max() > WARPED or np.linalg.matrix_rank(corners - corners[0], 1e-3) < 2:
@@ -160,11 +160,11 @@ class Parts:
 
     def _covering(self, table, path):
         """(4, 3) corners of a plate on the upper faces of two bars, from the outer edge of one to that of the other."""
-        (first, along), (last, _) = (self._upper(self._bar_of(name, table.at("on"), f"{path}.on"))
-                                     for name in table["on"])
+        (first, along), (last, _) = (self._upper(self._bar_of(name, table.at("over"), f"{path}.over"))
+                                     for name in table["over"])
         points = np.vstack([first.points, last.points])
         if np.abs(points @ first.normal - first.offset).max() > WARPED:
-            fail(table.at("on"), f"{path}.on", "the upper faces of the two members are not in one plane; give corners")
+            fail(table.at("over"), f"{path}.over", "the upper faces of the two members are not in one plane; give corners")
         across = cross(first.normal, along)
         u, v = points @ along, points @ across
         low, high = v.min() - table["overhang"], v.max() + table["overhang"]

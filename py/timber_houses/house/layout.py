@@ -154,9 +154,9 @@ member = Record({"from": end, "to": end, "section": ListOf(length(0.005, 3.0), 2
                  "profile": ListOf(ListOf(Number("m", -3, 3), 2), least=3, most=12, default=None),
                  "roll": Number("degrees", -360, 360, default=0.0), "kind": Choice(KINDS[:-2], "beam"),
                  "cuts": ListOf(cut, most=20, default=()), **_parts}, one_of=("section", "profile"))
-plate = Record({"corners": ListOf(point, least=3, most=12, default=None), "on": ListOf(word(), 2, default=None),
+plate = Record({"corners": ListOf(point, least=3, most=12, default=None), "over": ListOf(word(), 2, default=None),
                 "overhang": length(high=5.0, default=0.0, open_low=False), "thickness": length(0.001, 2.0),
-                "kind": Choice(KINDS[:-2], "floor"), "snow": Flag(True), **_parts}, one_of=("corners", "on"))
+                "kind": Choice(KINDS[:-2], "floor"), "snow": Flag(True), **_parts}, one_of=("corners", "over"))
 named_joint = Record({"between": ListOf(word(), 2), "type": word(), "kind": word(None),
                       "number": Number("fittings", 1, 100, whole=True, default=1),
                       "share": Number("", 0.01, 1.0, default=1.0),

@@ -160,13 +160,17 @@ def attributes(joint):
             **{attribute(name): value for name, value in (values | law).items()}}
 
 
+LEVEL_KINDS = (("floor",), ("beam", "roof"), ("rafter",))
+"""Kinds of elements that mark a level: the first of these that it has."""
+
+
 def level_marks(model, structure):
-    """[(element, level)] of a structure; level k is the top of storey k: floors, else beams and roof."""
+    """[(element, level)] of a structure; level k is the top of storey k."""
     marks = []
     for storey in sorted(model.storey_levels[structure]):
-        floors, others = ([e for kind in kinds for e in model.of_kind(kind, group=structure) if e.storey == storey]
-                          for kinds in (("floor",), ("beam", "roof")))
-        marks += [(e, storey) for e in floors or others]
+        found = ([e for kind in kinds for e in model.of_kind(kind, group=structure) if e.storey == storey]
+                 for kinds in LEVEL_KINDS)
+        marks += [(e, storey) for e in next(filter(None, found), [])]
     return marks
 
 
@@ -188,5 +192,5 @@ def structure_monitor(model, ids):
     main, storeys = next(iter(model.storey_levels.items()))
     members = [e for e in model.elements if e.group == main and not e.fixed]
     top = max(storeys)
-    parts = [2 * min(e.storey, top) - (e.kind in STANDING) for e in members]
+    parts = [2 * min(e.storey, top) - (e.kind in STANDING and e.storey <= top) for e in members]
     return yw.StructureMonitor(bodies=[ids[e.name] for e in members], parts=parts)
