@@ -150,7 +150,7 @@ repeat = ListOf(Record({"by": ListOf(_coordinate, 3, default=None), "turn": Numb
                         "about": ListOf(_coordinate, 2, default=(0.0, 0.0)), "at": _offset},
                        one_of=("by", "turn", "mirror")), scalar=True, most=5, default=())
 _parts = {"material": word("timber"), "fixed": Flag(False), "repeat": repeat}
-member = Record({"from": end, "to": end, "section": ListOf(length(0.005, 3.0), 2, default=None),
+member = Record({"from": end, "to": end, "section": ListOf(length(0.005, 5.0), 2, default=None),
                  "profile": ListOf(ListOf(Number("m", -3, 3), 2), least=3, most=12, default=None),
                  "roll": Number("degrees", -360, 360, default=0.0), "kind": Choice(KINDS[:-2], "beam"),
                  "cuts": ListOf(cut, most=20, default=()), **_parts}, one_of=("section", "profile"))
