@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .geometry import SAME, SNAP_DIGITS, cross, halfspace_vertices, polyhedron
+from .geometry import SAME, SNAP_DIGITS, cross, halfspace_vertices, polygon_area, polyhedron
 from .schema import fail
 
 OBLIQUE = 0.1
@@ -71,6 +71,8 @@ class Parts:
     # --- bars ---------------------------------------------------------------------------------------------------------
 
     def _bar(self, name, table):
+        if not is_convex(outline(table)):
+            fail(table.at("profile"), f"{self.path(name)}.profile", "is not a convex polygon; give its corners in order")
         ends = np.array([self._point(name, table, key) for key in ("from", "to")])
         length = float(np.linalg.norm(ends[1] - ends[0]))
         if length < 1e-3:
@@ -152,7 +154,7 @@ class Parts:
             fail(table.at("corners"), f"{path}.corners", f"do not span a plane (off by {1e3 * np.abs(off).max():.3g} mm,"
                  f" at most {1e3 * WARPED:g}); correct them")
         corners = corners - off[:, None] * normal
-        turns = np.cross(corners - corners[0], np.roll(corners, -1, 0) - corners[0]).sum(0)
+        turns = cross(corners - corners[0], np.roll(corners, -1, 0) - corners[0]).sum(0)
         through = table["thickness"] * turns / np.linalg.norm(turns)
         if abs(normal @ LEVEL) > OBLIQUE:
             through = table["thickness"] / abs(normal @ LEVEL) * LEVEL
@@ -192,6 +194,15 @@ def outline(table):
     return square * np.array([width, depth]) / 2
 
 
+def is_convex(corners):
+    """Whether a polygon (n, 2) turns one way at all corners, once around."""
+    edges = np.roll(corners, -1, 0) - corners
+    following = np.roll(edges, -1, 0)
+    turns = np.arctan2(edges[:, 0] * following[:, 1] - edges[:, 1] * following[:, 0], (edges * following).sum(1))
+    return bool((np.abs(turns) > SAME).all() and abs(abs(turns.sum()) - 2 * np.pi) < 1e-6
+                and (np.sign(turns) == np.sign(turns[0])).all())
+
+
 def section_axes(along, roll):
     """Unit vectors of width and depth of a bar. along: unit vector; roll: right-handed about it [degrees]"""
     across = cross(LEVEL, along)
@@ -210,7 +221,7 @@ def turned(degrees):
 def sides(corners, along, roll, point):
     """Planes of the faces along a bar through a point. corners (n, 2): of its section, in any sense"""
     axes = np.array(section_axes(along, roll))
-    if np.sum(np.cross(corners, np.roll(corners, -1, 0))) < 0:
+    if polygon_area(corners) < 0:
         corners = corners[::-1]
     edges = np.roll(corners, -1, 0) - corners
     normals = np.column_stack([edges[:, 1], -edges[:, 0]]) / np.linalg.norm(edges, axis=1)[:, None]
