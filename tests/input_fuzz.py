@@ -62,8 +62,10 @@ extends: frame
 name: portal
 frame:
   members:
-    sill: {from: [0, -1, 0.1], to: [0, 1, 0.1], section: [0.2, 0.2], kind: sill, fixed: true, repeat: {mirror: x, at: 1}}
-    post: {from: {of: sill, at: 1}, to: [0, 0, 2], section: [0.1, 0.1], kind: column, repeat: {turn: 180, about: [1, 0]}}
+    sill: {from: [0, -1, 0.1], to: [0, 1, 0.1], section: [0.2, 0.2], kind: sill, fixed: true,
+           repeat: {mirror: x, at: 1}}
+    post: {from: {of: sill, at: 1}, to: [0, 0, 2], section: [0.1, 0.1], kind: column,
+           repeat: {turn: 180, about: [1, 0]}}
     tie: {from: [-0.2, 0, 2.1], to: [2.2, 0, 2.1], section: [0.1, 0.2]}
     rafter: {from: [0, 0, 2.2], to: [1, 0, 2.7], profile: [[-0.05, -0.1], [0.05, -0.1], [0.05, 0.1], [-0.05, 0.1]],
              kind: rafter, roll: 0, cuts: [{by: tie}, {x: 1}], repeat: {mirror: x, at: 1}}

@@ -70,8 +70,9 @@ def truss():
     """Text of the members."""
     lines = ["  members:"]
     for name, (x, z) in NODES.items():
-        lines.append(f"    {name}: {{from: [{x}, -0.1, {z}], to: [{x}, 0.1, {z}], profile: {profile(name)}, kind:"
-                     f" {'beam' if name in FREE else 'foundation'}, fixed: {str(name not in FREE).lower()}, material: heavy}}")
+        kind = "beam" if name in FREE else "foundation, fixed: true"
+        lines.append(f"    {name}: {{from: [{x}, -0.1, {z}], to: [{x}, 0.1, {z}], profile: {profile(name)},"
+                     f" material: heavy, kind: {kind}}}")
     for bar in BARS:
         ends = [np.array(NODES[node]) + sign * (RADIUS + GAP) * direction(bar) for node, sign in zip(bar, (1, -1))]
         lines.append(f"    {bar}: {{from: [{ends[0][0]}, 0, {ends[0][1]}], to: [{ends[1][0]}, 0, {ends[1][1]}],"
@@ -125,8 +126,10 @@ def test_deflection_of_a_king_post_truss(king_post):
 SPAN, RISE = 6.0, 2.0
 HINGED = f"""\
   members:
-    foot: {{from: [0, 0, 0], to: [0, 0, 0.5], section: [0.4, 0.4], kind: foundation, fixed: true, repeat: &both {{mirror: x, at: {SPAN / 2}}}}}
-    rafter: {{from: [0, 0, {0.5 + GAP}], to: [{SPAN / 2 - GAP / 2}, 0, {0.5 + RISE}], section: [0.2, 0.2], cuts: [{{z: {0.5 + GAP}}}, {{x: {SPAN / 2 - GAP / 2}}}], repeat: *both}}
+    foot: {{from: [0, 0, 0], to: [0, 0, 0.5], section: [0.4, 0.4], kind: foundation, fixed: true,
+           repeat: &both {{mirror: x, at: {SPAN / 2}}}}}
+    rafter: {{from: [0, 0, {0.5 + GAP}], to: [{SPAN / 2 - GAP / 2}, 0, {0.5 + RISE}], section: [0.2, 0.2],
+             cuts: [{{z: {0.5 + GAP}}}, {{x: {SPAN / 2 - GAP / 2}}}], repeat: *both}}
   storeys: [[0.5, 2]]
 """
 

@@ -12,7 +12,8 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
 from timber_houses.house.layout import HOUSE
-from timber_houses.house.schema import REQUIRED, Choice, Either, Flag, ListOf, MapOf, Number, Pair, Record, Text, Variants
+from timber_houses.house.schema import (REQUIRED, Choice, Either, Flag, ListOf, MapOf, Number, Pair, Record, Text,
+                                        Variants)
 
 PAGE = ROOT / "docs" / "house_files.md"
 HEADING = re.compile(r"^#+ .*`([^`]*)`$")

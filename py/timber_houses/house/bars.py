@@ -10,7 +10,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from .geometry import SAME, SNAP_DIGITS, cross, halfspace_vertices, polygon_area, polyhedron
+from .parser import Table
 from .schema import fail
+
+SHORTEST = 1e-3
+"""Distance of the ends of a bar, at least. [m]"""
 
 OBLIQUE = 0.1
 """Least component along a bar of the normal of a plane that replaces its end face: up to 84 degrees from square. [-]"""
@@ -71,37 +75,41 @@ class Parts:
     # --- bars ---------------------------------------------------------------------------------------------------------
 
     def _bar(self, name, table):
+        path = self.path(name)
         if not is_convex(outline(table)):
-            fail(table.at("profile"), f"{self.path(name)}.profile", "is not a convex polygon; give its corners in order")
+            fail(table.at("profile"), f"{path}.profile", "is not a convex polygon; give its corners in order")
         ends = np.array([self._point(name, table, key) for key in ("from", "to")])
         length = float(np.linalg.norm(ends[1] - ends[0]))
-        if length < 1e-3:
-            fail(table.at("to"), f"{self.path(name)}.to", "lies at its other end; give two points apart")
+        if length < SHORTEST:
+            fail(table.at("to"), f"{path}.to", "lies at its other end; give two points apart")
         along = (ends[1] - ends[0]) / length
-        caps = [(-along, -along @ ends[0]), (along, along @ ends[1])]
-        cuts = []
-        for k, key in enumerate(("from", "to")):
-            if isinstance(table[key], dict) and table[key]["flush"]:
-                cuts.append(self._entered(name, table, key, ends[1 - k], ends[k]))
-                if abs(cuts[-1][0] @ along) > OBLIQUE:
-                    caps[k] = None
-        reach = float(np.ptp(outline(table), axis=0).max())
-        for i, cut in enumerate(table["cuts"], 1):
-            normal, offset = plane = self._cut(name, cut, f"{self.path(name)}.cuts[{i}]", ends.mean(0))
-            crossing = (offset - normal @ ends[0]) / (normal @ along) if abs(normal @ along) > OBLIQUE else np.inf
-            if cut["normal"] is None and -reach < crossing < length + reach:
-                caps[int(crossing > length / 2)] = None
-            cuts.append(plane)
-        planes = sides(outline(table), along, table["roll"], ends[0]) + [cap for cap in caps if cap] + cuts
+        planes = sides(outline(table), along, table["roll"], ends[0]) + self._end_planes(name, table, ends, along)
         try:
             return Part(halfspace_vertices(planes), ends)
         except ValueError as problem:
-            fail(table.where, self.path(name), f"no volume is left between its faces ({problem}); check ends and cuts")
+            fail(table.where, path, f"no volume is left between its faces ({problem}); check its ends and cuts")
+
+    def _end_planes(self, name, table, ends, along):
+        """Planes of cuts, and of the square end faces that none of them replaces."""
+        planes, replaced = [], set()
+        reach, length = float(np.ptp(outline(table), axis=0).max()), (ends[1] - ends[0]) @ along
+        for k, key in enumerate(("from", "to")):
+            if isinstance(table[key], Table) and table[key]["flush"]:
+                planes.append(self._entered(name, table, key, ends[1 - k], ends[k]))
+                replaced |= {k} if abs(planes[-1][0] @ along) > OBLIQUE else set()
+        for i, cut in enumerate(table["cuts"], 1):
+            normal, offset = self._cut(name, cut, f"{self.path(name)}.cuts[{i}]", ends.mean(0))
+            planes.append((normal, offset))
+            if cut["normal"] is None and abs(normal @ along) > OBLIQUE:
+                crossing = (offset - normal @ ends[0]) / (normal @ along)
+                replaced |= {int(crossing > length / 2)} if -reach < crossing < length + reach else set()
+        caps = [(-along, -along @ ends[0]), (along, along @ ends[1])]
+        return planes + [cap for k, cap in enumerate(caps) if k not in replaced]
 
     def _point(self, name, table, key):
         """(3,) end of a bar."""
         end = table[key]
-        if not isinstance(end, dict):
+        if not isinstance(end, Table):
             return np.array(end)
         axis = self._bar_of(end["of"], end.at("of"), f"{self.path(name)}.{key}.of").axis
         start, far = axis if end["end"] == "from" else axis[::-1]
@@ -151,8 +159,8 @@ class Parts:
         _, _, axes = np.linalg.svd(corners - corners.mean(0), full_matrices=False)
         normal, off = axes[2], (corners - corners.mean(0)) @ axes[2]
         if np.abs(off).max() > WARPED or np.linalg.matrix_rank(corners - corners[0], 1e-3) < 2:
-            fail(table.at("corners"), f"{path}.corners", f"do not span a plane (off by {1e3 * np.abs(off).max():.3g} mm,"
-                 f" at most {1e3 * WARPED:g}); correct them")
+            fail(table.at("corners"), f"{path}.corners", "do not span a plane (off by"
+                 f" {1e3 * np.abs(off).max():.3g} mm, at most {1e3 * WARPED:g}); correct them")
         corners = corners - off[:, None] * normal
         turns = cross(corners - corners[0], np.roll(corners, -1, 0) - corners[0]).sum(0)
         through = table["thickness"] * turns / np.linalg.norm(turns)
@@ -166,7 +174,8 @@ class Parts:
                                      for name in table["over"])
         points = np.vstack([first.points, last.points])
         if np.abs(points @ first.normal - first.offset).max() > WARPED:
-            fail(table.at("over"), f"{path}.over", "the upper faces of the two members are not in one plane; give corners")
+            fail(table.at("over"), f"{path}.over", "the upper faces of the two members are not in one plane; give"
+                 " corners")
         across = cross(first.normal, along)
         u, v = points @ along, points @ across
         low, high = v.min() - table["overhang"], v.max() + table["overhang"]

@@ -48,7 +48,7 @@ def build_house(description, snow_depth=None, check=True, wall_level=None):
 
 def _structures(data):
     """{name: Grid or Frame}. HouseError for a first structure without a storey: its drifts are reported."""
-    structures = {}
+    structures: dict = {}
     for name, table in data["structures"].items():
         structures[name] = Grid(name, table, data["materials"], structures)
     for structure in structures.values():

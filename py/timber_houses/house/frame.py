@@ -106,8 +106,8 @@ class Frame:
     def _found_levels(self):
         """From the lowest foot of a column to each horizontal plate; without one to the head of the lowest columns, or
         over the height of a frame without columns."""
-        bounds = {kind: [e.solid.bounds[:, 2] for e in self.elements if kind in (e.kind, "")] for kind in ("column", "")}
-        standing = bounds["column"] or bounds[""]
+        columns = [e for e in self.elements if e.kind == "column"]
+        standing = [e.solid.bounds[:, 2] for e in columns or self.elements]
         foot = float(min(low for low, _ in standing))
         slabs = sorted(tuple(e.solid.bounds[:, 2].tolist()) for e in self.elements
                        if e.kind in SLABS and np.ptp(e.solid.bounds[:, 2]) < STEP and _is_level(e))
@@ -131,8 +131,8 @@ class Frame:
         there = Counter(e.storey for e in self.elements if e.kind not in END_JOINED and not e.fixed)
         for storey, (foot, head) in self.levels.items():
             if not there[storey]:
-                fail(self.table.at("storeys"), "frame.storeys", f"no beam, rafter, floor or roof near the head of storey"
-                     f" {storey} (z {foot:.2f} to {head:.2f} m), whose drift is reported; give the levels of storeys")
+                fail(self.table.at("storeys"), "frame.storeys", "no beam, rafter, floor or roof near the head of"
+                     f" storey {storey} (z {foot:.2f} to {head:.2f} m), whose drift is reported; give other levels")
 
     def _plan(self, storey):
         columns = {tuple(np.round(e.solid.centroid[:2], 6).tolist()): e.name for e in self.elements

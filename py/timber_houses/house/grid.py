@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A structure of a grid and a stack of layers: its members, levels, plans and the joints that contact areas do not tell.
+"""A structure of a grid and a stack of layers: its members, levels, plans, and joints of roofs and walls.
 
 A structure of any kind (Grid, frame.Frame) has `name`, `table` with its `loads`, `margin` [m], `area()`, `levels`
 {storey: (foot, head) [m]}, `heights` {storey: [m]}, `plans` {storey: FloorPlan}, `named` joints, `lay(snow)` and
@@ -20,6 +20,7 @@ class Grid(Structure):
     """Structure with plans and members."""
 
     named: dict = {}  # joints given by the names of their members
+
     def __init__(self, name, table, materials, others):
         super().__init__(name, table, materials, others)
         self.margin = table["margin"]
