@@ -47,8 +47,7 @@ namespace {
 		{ "ContactForces", Role::contactForces, Role::required, { "ContactForces" } },
 		{ "an integrator (SymplecticIntegrator)", Role::integration, Role::required,
 		        { "SymplecticIntegrator" } },
-		{ "HouseMonitor", Role::monitors, Role::repeatable, { "HouseMonitor" } },
-		{ "StructureMonitor", Role::monitors, Role::optional, { "StructureMonitor" } },
+		{ "Sampler", Role::monitors, Role::repeatable, { "Sampler" } },
 		{ "RestSkipper", Role::last, Role::optional, { "RestSkipper" } },
 	};
 

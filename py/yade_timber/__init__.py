@@ -10,7 +10,7 @@ joints      connect, SlipLaw
 engines     engines, stable_dt
 queries     contacts, energy, energy_residual, export_scene, record
 session     guard
-classes     the compiled ones: TimberMat, HouseMonitor, ...
+classes     the compiled ones: TimberMat, Sampler, ...
 
 The import registers the classes and changes nothing else of the session. `guard()` protects a scene that runs in the
 background. `help(yt.box)` describes a function. Guide: docs/scenes.md. Houses: `import timber_houses`.

@@ -20,6 +20,8 @@ UNBREAKABLE = 1e12
 """Strength of joints in cases without breaks [N]."""
 STRONG = 17.6
 """Start of the strong part of the synthetic motion [s]."""
+STOREYS = 2
+"""Of the houses."""
 
 
 def plate():
@@ -84,13 +86,13 @@ def path():
 
 def drifts():
     """Displacement of the beam, or storey drifts."""
-    monitor = engines.find_engine(yw.HouseMonitor)
-    if monitor is None:
+    sampler = engines.find_engine(yw.Sampler)
+    if sampler is None:
         return {"drift": [*O.bodies[len(O.bodies) - 1].state.displ()]}
-    displacements = {level: [O.bodies[b].state.displ() for b, l in zip(monitor.bodies, monitor.levels) if l == level]
-                     for level in set(monitor.levels)}
-    means = {level: np.mean([[*d][:2] for d in all], axis=0) for level, all in displacements.items()}
-    return {"drift": np.concatenate([means[level] - means.get(level - 1, 0) for level in sorted(means)])}
+    levels = [[O.bodies[b].state.displ() for b, group in zip(sampler.bodies, sampler.groups) if group == level]
+              for level in range(STOREYS)]  # the first groups
+    means = np.array([np.mean([[*d][:2] for d in level], axis=0) for level in levels])
+    return {"drift": np.diff(means, axis=0, prepend=0.0).ravel()}
 
 
 def joint_forces():

@@ -12,6 +12,7 @@ import yade.config
 import yade_timber as yt
 from compare import assert_close
 from yade import O
+from timber_houses.run.observer import Observer
 from timber_houses.scene import scenario
 from yade_timber.scene.engines import find_engine
 from timber_houses.motion import GroundMotion, default_motion
@@ -32,10 +33,10 @@ def shaken_house(house, start, names, **more):
     """Numbers of a house after DURATION of the default motion from a time on. names: of elements"""
     motion = default_motion()
     cut = GroundMotion(motion.dt, motion.acceleration[round(start / motion.dt):], "cut")
-    scenario.build(scenario.Scenario("golden", house, cut, **more))
+    observed = Observer(scenario.build(scenario.Scenario("golden", house, cut, **more)))
     O.run(round(DURATION / O.dt), True)
-    monitor = find_engine(yt.HouseMonitor)
-    numbers = {"peak drift " + str(k): value for k, value in enumerate(monitor.peak)}
+    observed.read_samples()
+    numbers = {"peak drift " + str(k): value for k, value in enumerate(observed.judge.main.peak)}
     numbers.update({"energy " + name: value for name, value in yt.energy().items()})
     numbers["contact points"] = sum(len(i.geom.points) for i in O.interactions if i.isReal)
     for name in names:

@@ -7,6 +7,7 @@ import yade_timber as yt
 from timber_houses.motion import GroundMotion
 from timber_houses.recording.record import Motion
 from timber_houses.recording.quantities import storeys
+from timber_houses.recording.samples import Samples
 from timber_houses.scene.modes import SLOWEST, natural_modes
 
 O = yw.Omega()
@@ -123,7 +124,7 @@ def test_shear_is_the_force_of_the_columns():
     columns = [O.bodies.append(yt.box((SIDE, SIDE, 1.0), (x, y, 0.5))) for x in (-1, 1) for y in (-1, 1)]
     slab = O.bodies.append(yt.box((2.5, 2.5, 0.1), (0, 0, 1.05)))
     motion = GroundMotion(0.01, np.tile([1.5, -0.7, 0.3], (100, 1)))
-    monitor = yw.StructureMonitor(bodies=[*columns, slab], parts=[1] * 4 + [2], interval=0.0)
+    monitor = yw.Sampler(bodies=[*columns, slab], groups=[1] * 4 + [2], interval=0.0)
     O.engines, O.dt = yt.engines(ground_motion=motion, monitor=monitor), 1e-4
     joints = [(yt.connect(a, b, corners(O.bodies[c].state.pos[0], O.bodies[c].state.pos[1], z), (0, 0, 1)), a == base)
               for c in columns
@@ -134,7 +135,7 @@ def test_shear_is_the_force_of_the_columns():
         forces.append([cut_force(base, columns, slab, joints, at_base) for at_base in (True, False)])
     masses = [0, sum(O.bodies[c].state.mass for c in columns), O.bodies[slab].state.mass]
     table = storeys(
-        np.insert(np.reshape(monitor.rows, (-1, 10)), 0, 0, axis=0)[1:], masses,
+        Samples(monitor.columns(), monitor.rows).momenta(slice(None)), masses,
         Motion(0.01, 0.0, np.array(motion.acceleration), np.zeros((100, 3))))
     for k, names in enumerate((("base_shear_ew", "base_shear_ns"), ("shear_ew1", "shear_ns1"))):
         found = -np.array([table.column(name) for name in names]).T
@@ -165,7 +166,7 @@ def test_uplift_and_pull_under_a_static_push():
     hard = yt.timber(young=1e14)  # without indentation
     base = O.bodies.append(yt.box((1, 1, 0.2), (0, 0, -0.1), None, hard, fixed=True))
     column = O.bodies.append(yt.box((SIDE, SIDE, HEIGHT), (0, 0, HEIGHT / 2), None, hard))
-    monitor = yw.StructureMonitor(jointInterval=0.0)
+    monitor = yw.Sampler(jointInterval=0.0)
     O.engines, O.dt = yt.engines(gravity=(push, 0, -G), monitor=monitor), 1e-4
     yt.connect(base, column, corners(0, 0, 0), (0, 0, 1), (KN, KN), 1e9, damping_ratio=0.7)
     O.run(60000, True)
@@ -183,7 +184,7 @@ def test_joint_peaks_are_kept():
     """Peaks stay when the load goes: tension and shear of a joint, and its load over the strength."""
     O.reset()
     O.bodies.append([yt.box((1, 1, 1), (0, 0, 0), fixed=True), yt.box((1, 1, 1), (0, 0, 1.5))])
-    monitor = yw.StructureMonitor(jointInterval=0.0)
+    monitor = yw.Sampler(jointInterval=0.0)
     O.engines, O.dt = yt.engines(gravity=(0, 0, 0), monitor=monitor), 1e-6
     yt.connect(0, 1, [(0, 0, 1)] * 4, (0, 0, 1), (KN, KS), 1e4)
     state = O.bodies[1].state

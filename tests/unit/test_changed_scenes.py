@@ -207,7 +207,7 @@ def test_a_fixed_body_that_rotates_is_not_at_rest():
 def test_samples_at_multiples_of_the_interval(dt, interval):
     plate()
     cube(0.1)
-    monitor = yw.HouseMonitor(interval=interval)
+    monitor = yw.Sampler(interval=interval)
     start(dt=dt, steps=round(0.3 / dt) + 1, monitor=monitor)
     times = monitor.rows[:: len(monitor.columns())]
     assert all(abs(time - k * interval) <= dt / 2 * (1 + 1e-9) for k, time in enumerate(times))

@@ -62,7 +62,7 @@ def test_lost_columns_are_an_event(house):
 def test_events_are_printed_once(house, capsys):
     """A line for each event of the log, unless the run is quiet; events known from a checkpoint are not repeated."""
     house.log.add(0.5, Tilt("ns"))
-    with Bar("A", 30.0, 0.0, False, Status(house.log)) as shown, Bar("A", 30.0, 0.0, True, Status(house.log)) as quiet:
+    with Bar("A", 30.0, 0.0, False, Status(house)) as shown, Bar("A", 30.0, 0.0, True, Status(house)) as quiet:
         house.log.add(1.25, Collapse())
         for progress in (shown, shown, quiet):
             progress.advance(1.25)

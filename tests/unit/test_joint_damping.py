@@ -140,7 +140,7 @@ def test_saved_scene_continues_bit_for_bit(tmp_path):
 
 def test_history_has_the_energy_of_damped_joints():
     for ratio in (0.0, 0.05):
-        monitor = yw.HouseMonitor(bodies=[1], levels=[1], heights=[1.0])
+        monitor = yw.Sampler(bodies=[1], groups=[0])
         column(ratio, monitor=monitor)
         names = monitor.columns()
         O.run(200, True)
@@ -150,7 +150,7 @@ def test_history_has_the_energy_of_damped_joints():
 
 def test_columns_stay_when_damping_changes():
     """Rows of one length: a joint that is damped later adds no column."""
-    monitor = yw.HouseMonitor(bodies=[1], levels=[1], heights=[1.0])
+    monitor = yw.Sampler(bodies=[1], groups=[0])
     _, joint = column(0.0, monitor=monitor)
     O.run(200, True)
     names = monitor.columns()

@@ -10,7 +10,6 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-import yade.wrapper as yw
 import yade_timber as yt
 from yade import O, PyRunner
 from timber_houses.recording import frames
@@ -19,7 +18,6 @@ from timber_houses.run import live
 from timber_houses.run.options import RunOptions
 from timber_houses.run.runner import Run
 from timber_houses.scene import scenario
-from yade_timber.scene.engines import find_engine
 
 yt.guard()
 
@@ -64,7 +62,7 @@ def test_the_prompt_shows_time_drift_and_events(tmp_path, monkeypatch, capfd):
     monkeypatch.setattr(builtins, "get_ipython", lambda: SimpleNamespace(pt_app=session), raising=False)
     run = begin(tmp_path, 2000, quiet=False)
     step_to(100)
-    find_engine(yw.HouseMonitor).collapseTime = 0.0
+    run.observer.judge.main.fall_s = 0.0
     O.run(run.steps - O.iter)
     wait_for(lambda: not lock.is_locked(tmp_path))
     assert "live 0.30/0.40 s, drift below 1/1000, 0/206 joints broken" in texts and texts[-1] is None
@@ -75,9 +73,9 @@ def test_the_prompt_shows_time_drift_and_events(tmp_path, monkeypatch, capfd):
 
 def test_a_collapse_ends_the_run_on_request(tmp_path):
     """At the next frame (every 250 steps), with results."""
-    begin(tmp_path, until_collapse=True)
+    run = begin(tmp_path, until_collapse=True)
     step_to(100)
-    find_engine(yw.HouseMonitor).collapseTime = 0.0
+    run.observer.judge.main.fall_s = 0.0
     O.run()
     wait_for(lambda: not lock.is_locked(tmp_path))
     found = json.loads((tmp_path / "summary.json").read_text())

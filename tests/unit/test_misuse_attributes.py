@@ -26,10 +26,8 @@ def complete(name):
         return yw.TimberJoint(id1=0, id2=1, anchors1=[(0, 0, 0)] * 2, anchors2=[(0, 0, 0)] * 2, kn=1, ks=1, strength=1)
     if name == "GroundMotionEngine":
         return yw.GroundMotionEngine(step=0.01, acceleration=[(0, 0, 0), (1, 0, 0)])
-    if name == "HouseMonitor":
-        return yw.HouseMonitor(heights=[2.73], bodies=[1, 2], levels=[1, 1])
-    if name == "StructureMonitor":
-        return yw.StructureMonitor(bodies=[1, 2], parts=[0, 1])
+    if name == "Sampler":
+        return yw.Sampler(bodies=[1, 2], groups=[0, 1])
     pair = {"mass": 1.0, "friction": 0.5, "shearRatio": 0.4, "overlapLimit": 0.1}
     laws = {
         "ManifoldPhys": pair, "TimberPhys": {**pair, "modulus": 1e9, "radius": 0.1},
@@ -54,17 +52,11 @@ REFUSED = [
     ("GroundMotionEngine", "start", INF),
     ("GroundMotionEngine", "scale", NAN),
     ("GroundMotionEngine", "acceleration", [Vector3(0, NAN, 0)]),
-    ("HouseMonitor", "heights", [2.73, -1.0]),
-    ("HouseMonitor", "interval", -0.01),
-    *[("HouseMonitor", limit, value) for limit in ("tiltDrift", "fallDrop", "fallenAngle") for value in (NAN, 0.0)],
-    ("HouseMonitor", "levels", [1, -1]),
-    ("HouseMonitor", "levels", [1, 1, 1]),
-    ("HouseMonitor", "bodies", [1]),
-    ("StructureMonitor", "interval", -0.01),
-    ("StructureMonitor", "jointInterval", NAN),
-    ("StructureMonitor", "parts", [0, -1]),
-    ("StructureMonitor", "parts", [0, 0, 0]),
-    ("StructureMonitor", "bodies", [1]),
+    ("Sampler", "interval", -0.01),
+    ("Sampler", "jointInterval", NAN),
+    ("Sampler", "groups", [0, -1]),
+    ("Sampler", "groups", [0, 0, 0]),
+    ("Sampler", "bodies", [1]),
     ("HealthCheck", "every", 0),
     ("HealthCheck", "every", 1.5),
     ("HealthCheck", "speedLimit", NAN),
@@ -139,7 +131,6 @@ RESULTS = {
         "elasticJoints", "placed", "created", "jointDebt", "worstChange", "unconverged", "sweepsMax"
     },
     "GroundMotionEngine": {"work"},
-    "HouseMonitor": {"tiltTime", "collapseTime"},
     "JointBreak": {"time", "force"},
     "JointEngine": {"released", "elastic", "yielded", "created"},
 }

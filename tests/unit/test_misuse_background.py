@@ -17,7 +17,7 @@ from timber_houses.scene.modes import natural_modes
 
 yt.guard()
 
-LISTS = {yw.HouseMonitor: "peak rows", yw.StructureMonitor: "load opening pull rows shear",
+LISTS = {yw.Sampler: "axes load opening pull rows shear",
          yw.JointEngine: "breaks joints",
          yw.TimberJoint: "broken cycles forces largestStretches load plasticStretches springs stretches",
          yw.ManifoldGeom: "points", yw.ManifoldPhys: "points"}
@@ -26,7 +26,7 @@ PLACES = itertools.count()
 """Of joints: the same one twice is refused. [mm]"""
 CALLS = {"save": lambda scene: O.save(scene.path, quiet=True), "saveTmp": lambda scene: O.saveTmp(quiet=True),
          "sceneToString": lambda scene: O.sceneToString(), "engines": lambda scene: setattr(O, "engines", O.engines),
-         "dict": lambda scene: scene[yw.HouseMonitor].dict(),
+         "dict": lambda scene: scene[yw.Sampler].dict(),
          "append": lambda scene: scene[yw.JointEngine].append(yw.TimberJoint(**scene.joint)),
          "connect": lambda scene: yt.connect(0, 1, [(0, 0, 1e-3 * next(PLACES))]),
          "contacts": lambda scene: yt.contacts(0, 1),
@@ -49,7 +49,7 @@ class Column(dict):
     """A column on a plate, joined to it: {class: object of the scene}. path: of a file to write."""
 
     def __init__(self, folder):
-        column_on_plate(monitor=[yw.HouseMonitor(interval=0), yw.StructureMonitor(jointInterval=0)])
+        column_on_plate(monitor=yw.Sampler(interval=0, jointInterval=0))
         contact = O.interactions[0, 1]
         parts = [*O.engines, find_engine(yw.JointEngine).joints[0], contact.geom, contact.phys]
         super().__init__((cls, part) for part in parts for cls in LISTS.keys() | {type(part)} if isinstance(part, cls))
@@ -247,7 +247,7 @@ def test_threads_take_turns(column):
 
     def read():
         while not done.is_set():
-            len(column[yw.HouseMonitor].rows)
+            len(column[yw.Sampler].rows)
 
     reader = threading.Thread(target=read)
     reader.start()

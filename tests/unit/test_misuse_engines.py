@@ -259,20 +259,12 @@ def test_moving_body_that_is_placed(velocity, spin, placed):
     assert (find_engine(yw.ContactForces).placed > 0) == placed
 
 
-def test_level_without_bodies():
-    _, column = column_on_plate()
-    O.engines = [*O.engines, yw.HouseMonitor(bodies=[column], levels=[1], heights=[1, 1])]
-    with pytest.raises(RuntimeError) as error:
-        O.step()
-    is_one_line(error, "HouseMonitor: level 2 has no body")
-
-
 def test_peaks_of_a_wall_are_shears():
     """A spring along its normal alone (ks = 0), pressed together: its force is a shear in the wall's plane, no pull."""
     O.reset()
     plate = O.bodies.append(yt.box((1, 1, 0.2), (0, 0, -0.1), fixed=True))
     block = O.bodies.append(yt.box((0.2, 0.2, 0.2), (0, 0, 0.5)))  # above the plate, carried by the joint alone
-    monitor = yw.StructureMonitor(bodies=[block], parts=[0], jointInterval=0)
+    monitor = yw.Sampler(bodies=[block], groups=[0], jointInterval=0)
     O.dt, O.engines = 1e-4, [*yt.engines(), monitor]
     yt.connect(plate, block, [(0, 0, 0.5)], normal=(0, 0, 1), stiffness=(1e5, 0), strength=1e4, damping_ratio=1.0)
     O.run(5000, True)
@@ -283,7 +275,7 @@ def test_peaks_of_a_wall_are_shears():
 
 def test_reset_time_keeps_the_monitors():
     _, column = column_on_plate()
-    monitor = yw.StructureMonitor(bodies=[column], parts=[0], interval=1e-3)
+    monitor = yw.Sampler(bodies=[column], groups=[0], interval=1e-3)
     O.engines = [*O.engines, monitor]
     O.run(200, True)
     before = len(monitor.rows)

@@ -148,7 +148,7 @@ def test_numbers_that_would_end_the_process():
         with pytest.raises((ValueError, RuntimeError)):
             refused()
     column_on_plate()
-    O.engines = [*O.engines, yw.HouseMonitor(heights=[1.0], bodies=[1, 1000000], levels=[1, 1])]
+    O.engines = [*O.engines, yw.Sampler(bodies=[1, 1000000], groups=[0, 1], members=[1000000])]
     O.run(200, True)  # a body that is not there marks no level
 
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from .record import Elements, Joints, placed, rotated
 from .summary_parts import Broken, Columns, JointCounts
-from .verdict import FALL, FALLEN_ANGLE, Structure
+from .verdict import FALLEN_ANGLE, Structure
 from .walls import of_walls, sheet_states
 
 SIDES = ("north", "south", "east", "west", "inside")
@@ -36,7 +36,7 @@ class Level:
     height: float
 
     def displacement(self, moved):
-        """(3,) displacement of the centre of mass, as of HouseMonitor. moved: (n, 3) of all elements, NaN: removed."""
+        """(3,) displacement of the centre of mass, as of Sampler. moved: (n, 3) of all elements, NaN: removed."""
         moved, masses = moved[self.marks], np.array(self.masses)
         present = ~np.isnan(moved[:, 0])
         return masses[present] @ moved[present] / masses[present].sum()
@@ -130,35 +130,19 @@ class DamageSurvey:
 
     # --- structures and snow ------------------------------------------------------------------------------------------
 
-    def _moves(self, state, structure):
-        """[((3,) displacement of a level since the start, height of its storey [m])] from below."""
-        moved = state.position - self.elements.position
-        return [(level.displacement(moved), level.height) for level in self.levels
-                if level.structure == structure and not np.isnan(moved[level.marks, 0]).all()]
-
-    def fallen_structures(self, state):
-        """Names of the structures of which a level has come down by FALL of its storey."""
-        return [name for name in self.structures
-                if any(-move[2] > FALL * height for move, height in self._moves(state, name))]
-
-    def drift(self, state, structure):
-        """Largest storey drift of a structure, N-S or E-W. [-]"""
-        moves = [(np.zeros(3), 1.0), *self._moves(state, structure)]
-        return max((float(np.abs((above - below)[:2]).max() / height)
-                    for (below, _), (above, height) in zip(moves, moves[1:])),
-                   default=0.0)
-
-    def by_structure(self, state, peaks):
-        """{name: verdict.Structure}, the main one first. peaks: {name: peak drift so far [-]}"""
+    def by_structure(self, state, judged):
+        """{name: verdict.Structure}, the main one first; the residual drift is that of the last sample.
+        judged: {name: judge.Judged}"""
         broken, partly = self._broken_joints(state)
         owners = np.array([self.structures[0] if storey.isdigit() else storey for storey in self.joints.storey])
         lost, groups = self.lost_columns(state), np.array(self.elements.group)[self._columns]
-        fallen = self.fallen_structures(state)
-        return {name: Structure(peak_drift=peaks[name], residual_drift=self.drift(state, name),
+        return {name: Structure(peak_drift=max(facts.peak, default=0.0),
+                                column_drift=max(facts.column_peak, default=0.0),
+                                residual_drift=max(map(abs, facts.drift), default=0.0),
                                 broken=int(broken[owners == name].sum()),
                                 partly_broken=int(partly[owners == name].sum()),
-                                columns_lost=int(lost[groups == name].sum()), collapsed=name in fallen)
-                for name in self.structures}
+                                columns_lost=int(lost[groups == name].sum()), collapsed=facts.fall_s is not None)
+                for name, facts in judged.items()}
 
     @cached_property
     def _snow(self):

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Events of a run: time, kind, facts. Their phrases: text/.
 
-FirstBreak, Tilt (a storey drift passes verdict.TILT), Collapse (an upper floor comes down by verdict.FALL): at the time
-they happen; OwnWeight (damaged before the shaking): in the last frame before it; StructureFallen (another structure
-than the main one), ColumnsLost, SnowFallen: at the end of the frame interval in which they happen. ShakingBegins,
-StrongestShaking, LevelPassed: of the player, not recorded.
+FirstBreak, Tilt (a storey drift passes verdict.TILT), Collapse (an upper floor comes down by verdict.FALL),
+StructureFallen (another structure than the main one): at the time they happen; OwnWeight (damaged before the shaking):
+in the last frame before it; ColumnsLost, SnowFallen: at the end of the frame interval in which they happen.
+ShakingBegins, StrongestShaking, LevelPassed: of the player, not recorded.
 """
 from dataclasses import dataclass, field
 
@@ -135,9 +135,6 @@ class EventLog:
 
     def observe(self, time, state):
         """Note the events of a State that were not there before."""
-        for name in self.survey.fallen_structures(state):
-            if name != self.survey.structures[0]:
-                self.add(time, StructureFallen(name))
         for roof in self.survey.fallen_snow(state):
             self.add(time, self._fallen_snow(roof))
         self._observe_columns(time, state)

@@ -2,9 +2,8 @@
 """The state of a run on disk, from which it can be resumed: YADE's own saved scene with one line appended.
 
 The last line is JSON: `identity` of the run, `progress` (wall time, events so far), `sha256` of all bytes before that
-line. YADE's loader stops before it, so the file also opens with `O.load`, without the monitors' earlier rows
-(samples.py), whose file stands before that line once the run has ended. The binary format keeps every bit of every
-number.
+line. YADE's loader stops before it, so the file also opens with `O.load`. Once the run has ended, its samples
+(samples.py) stand before that line. The binary format keeps every bit of every number.
 
 YADE's loader creates whatever object the file names, also a PyRunner, which runs code. The binary format names each
 such class, with its namespace, before the first object of it; a file that names other classes than a run writes is
@@ -28,6 +27,7 @@ from ..base.files import written_from_memory
 from ..base.json_types import decode
 from ..base.record_file import record
 from ..recording.events import Event
+from ..recording.judge import Judged
 from ..recording.summary_parts import ModesAt
 
 NAME = "checkpoint.yade"
@@ -41,7 +41,7 @@ class Progress:
     wall_s: float
     samples: int
     events: list[Event]
-    peaks: dict[str, float]
+    judged: dict[str, Judged]
     modes: ModesAt | None
     upright: list
     at_rest: float | None

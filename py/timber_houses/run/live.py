@@ -32,7 +32,7 @@ class LiveRun(Run):
             return
         O.tags[TAG] = self.tag = uuid.uuid4().hex
         viewer.show()
-        self._status = Status(self.observer.log)
+        self._status = Status(self.observer)
         self._record_frames()
         O.run(self.steps - O.iter)
         threading.Thread(target=self._watch, daemon=True).start()

@@ -17,10 +17,12 @@ from ..base.json_types import decode, encode
 from ..motion import GroundMotion, displacement
 from ..recording import frames
 from ..recording.damage import SIDES, DamageSurvey, Level, State
-from ..recording.events import Collapse, EventLog, FirstBreak, OwnWeight, Tilt
+from ..recording.events import Collapse, EventLog, FirstBreak, OwnWeight, StructureFallen, Tilt
+from ..recording.judge import Judge, Judged
+from ..recording.samples import Samples
 from ..recording.summary_parts import ModesAt
-from ..recording.verdict import FALL, FALLEN_ANGLE, TILT, UNDAMAGED
-from ..scene.scenario import level_marks
+from ..recording.verdict import UNDAMAGED
+from ..scene.scenario import level_marks, sampled_columns
 from .modal import modes_now
 
 SETTLED = 1.0
@@ -133,13 +135,8 @@ def break_row(entry, model):
 
 def largest_so_far():
     """[(load [-], pull [N], shear [N], opening [m])] of the joints: largest so far, none before a sample."""
-    monitor = find_engine(yw.StructureMonitor)
-    return list(zip(monitor.load, monitor.pull, monitor.shear, monitor.opening))
-
-
-def set_limits(monitor):
-    """Give a HouseMonitor the limits of the verdict."""
-    monitor.updateAttrs({"tiltDrift": TILT.drift, "fallDrop": FALL, "fallenAngle": FALLEN_ANGLE})
+    sampler = find_engine(yw.Sampler)
+    return list(zip(sampler.load, sampler.pull, sampler.shear, sampler.opening))
 
 
 def moving_share():
@@ -149,16 +146,20 @@ def moving_share():
 
 
 class Observer:
-    """Notes events, peak drifts of structures and first natural modes of the run. progress: of a checkpoint"""
+    """Notes events, drifts of structures and first natural modes of the run. progress: of a checkpoint"""
 
     def __init__(self, model, progress=None):
         self.model = model
         self.survey = DamageSurvey(describe_elements(model), describe_joints(model), describe_levels(model))
         self.log = EventLog(self.survey, progress["events"] if progress else ())
-        self.peaks = progress["peaks"] if progress else dict.fromkeys(self.survey.structures, 0.0)
+        judged = decode(dict[str, Judged], progress["judged"]) if progress else None
+        self.judge = Judge(self.survey.levels, [(e.group, e.storey) for e in sampled_columns(model)], judged)
+        self.columns = tuple(find_engine(yw.Sampler).columns())
+        self.fresh = []
+        """[(n, W) arrays]: rows of the Sampler that are in no file yet."""
+        self._past = [(O.time, encode(self.judge.structures))]
         self.modes = decode(ModesAt | None, progress["modes"]) if progress else None
         self.upright = progress["upright"] if progress else (0.0, [])
-        set_limits(find_engine(yw.HouseMonitor))
         motion = describe_motion()
         self.shaking = motion and motion.first(HARMFUL)
         self.spent = motion.last(SPENT) if motion else 0.0
@@ -166,8 +167,25 @@ class Observer:
 
     def progress(self):
         """What a checkpoint must hold besides the scene: the argument `progress`."""
-        return {"events": self.log.encoded(), "peaks": self.peaks, "modes": encode(self.modes), "upright": self.upright,
-                "at_rest": self.at_rest}
+        return {"events": self.log.encoded(), "judged": encode(self.judge.structures), "modes": encode(self.modes),
+                "upright": self.upright, "at_rest": self.at_rest}
+
+    def read_samples(self):
+        """Take the samples since the last call out of the scene, and judge them."""
+        sampler, columns = find_engine(yw.Sampler), len(sampled_columns(self.model))
+        samples = Samples(self.columns, np.array(sampler.rows, float))
+        axes = np.array(sampler.axes, float).reshape(samples.samples, columns, 3)
+        sampler.rows, sampler.axes = [], []
+        self.judge.judge(samples, axes)
+        if samples.samples:
+            self.fresh.append(samples.rows)
+            self._past.append((samples.time[-1], encode(self.judge.structures)))
+
+    def _rewind(self, time):
+        """Judge as at a time [s] if a later state has been judged: an earlier one was loaded."""
+        while len(self._past) > 1 and self._past[-1][0] > time + O.dt / 2:
+            self._past.pop()
+            self.judge.structures.update(decode(dict[str, Judged], self._past[-1][1]))
 
     @property
     def main_levels(self):
@@ -181,7 +199,7 @@ class Observer:
 
     def _watch_wreck(self, time):
         """Note since when the bodies of a collapsed house are at rest after the motion. time [s]"""
-        is_wreck = math.isfinite(find_engine(yw.HouseMonitor).collapseTime) and time >= self.spent
+        is_wreck = self.judge.main.fall_s is not None and time >= self.spent
         if not is_wreck or moving_share() > ROLLING:
             self.at_rest = None
         elif self.at_rest is None:
@@ -189,9 +207,10 @@ class Observer:
 
     def fall(self):
         """Start of a collapsed house's fall: a storey tilts, or a floor is down [s]; None if it stands."""
-        monitor = find_engine(yw.HouseMonitor)
-        return (float(np.nanmin([monitor.tiltTime, monitor.collapseTime])) if math.isfinite(monitor.collapseTime)
-                else None)
+        main = self.judge.main
+        if main.fall_s is None:
+            return None
+        return main.fall_s if main.tilt_s is None else min(main.tilt_s, main.fall_s)
 
     def joint_peaks(self):
         """[(load, pull, shear, opening)] of the joints: largest values so far, or before the fall if there is one."""
@@ -204,31 +223,47 @@ class Observer:
         return State(position[:elements], orientation[:elements], record.joint_loads()[1][:joints])
 
     def observe(self, time, last=False):
-        """Note the events up to a time [s], that of the scene's state. last: whether it is the final state"""
+        """Note the events up to a time [s], that of the scene's state. last: whether it is the final state. Raises
+        RuntimeError."""
         self.log.drop_after(time)
-        monitor, first = find_engine(yw.HouseMonitor), next(iter(find_engine(yw.JointEngine).breaks), None)
+        self._require_levels()
+        self._rewind(time)
+        self.read_samples()
+        first = next(iter(find_engine(yw.JointEngine).breaks), None)
         if first:
             _, _, kind, storey, side, _, cause, force = break_row(first, self.model)
             self.log.add(first.time, FirstBreak(kind, storey, side, cause, force))
-        if not any(map(math.isfinite, (monitor.tiltTime, monitor.collapseTime))):
+        if self.judge.main.tilt_s is None and self.judge.main.fall_s is None:
             self.upright = time, largest_so_far()
-        if math.isfinite(monitor.tiltTime):
-            self.log.add(monitor.tiltTime, Tilt(monitor.tiltDirection))
-        if math.isfinite(monitor.collapseTime):
-            self.log.add(monitor.collapseTime, Collapse())
+        self._note_falls()
         self._watch_wreck(time)
         state = self.state()
         self.log.observe(time, state)
         if self.modes is None and time > SETTLED - O.dt / 2:
             self.modes = modes_now(self.main_levels)
-        self.peaks = {name: max(peak, self.survey.drift(state, name)) for name, peak in self.peaks.items()}
         next_frame = math.inf if last else time + frames.steps_between(O.dt) * O.dt
         if self.shaking is not None and time <= self.shaking < next_frame:
             self._weigh(time, state)
 
+    def _require_levels(self):
+        """Raise RuntimeError if a level of the main structure, whose drifts are reported, has no body any more."""
+        for storey, level in enumerate(self.main_levels, 1):
+            if all(O.bodies[mark] is None for mark in level.marks):
+                raise RuntimeError(f"{level.structure}: all bodies at the top of storey {storey} are erased: it has no"
+                                   " drift")
+
+    def _note_falls(self):
+        main, *others = self.judge.structures.items()
+        if main[1].tilt_s is not None:
+            self.log.add(main[1].tilt_s, Tilt(main[1].tilt_direction))
+        if main[1].fall_s is not None:
+            self.log.add(main[1].fall_s, Collapse())
+        for name, judged in others:
+            if judged.fall_s is not None:
+                self.log.add(judged.fall_s, StructureFallen(name))
+
     def _weigh(self, time, state):
         """Note the damage that the house has in its last frame before the shaking, or before the end of the run."""
-        peaks = {**self.peaks, self.survey.structures[0]: max(find_engine(yw.HouseMonitor).peak, default=0.0)}
-        structures = self.survey.by_structure(state, peaks)
+        structures = self.survey.by_structure(state, self.judge.structures)
         if any(facts.verdict != UNDAMAGED for facts in structures.values()):
             self.log.add(time, OwnWeight("snow" in self.survey.elements.kind, structures))

@@ -16,10 +16,10 @@ TERMINAL_REFRESH, LOG_REFRESH = 0.5, 30.0
 
 
 class Status:
-    """Events and numbers of one run as texts. log: EventLog"""
+    """Events and numbers of one run as texts. observer: of the run"""
 
-    def __init__(self, log):
-        self.log, self.told = log, list(log.events)
+    def __init__(self, observer):
+        self.log, self.judge, self.told = observer.log, observer.judge, list(observer.log.events)
 
     def events(self):
         """Lines of the events since the last call."""
@@ -32,7 +32,7 @@ class Status:
         described = self.log.survey.joints
         present = find_engine(yw.JointEngine).joints[:len(described.damaged)]
         broken = np.array([joint.isBroken for joint in present], bool) & ~described.damaged
-        peak = max(find_engine(yw.HouseMonitor).peak, default=0.0)
+        peak = max(self.judge.main.peak, default=0.0)
         joints, sheets = count_apart(described, broken)
         return f"drift {english.ratio(peak)}, {english.broken_of(joints, sheets, of='/')}"
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Quantities of the run that is loaded in YADE: storey shears, accelerations, peaks of joints and column feet.
 
-Element k of the HouseModel is body k of the scene, joint k is joint k of the JointEngine and of the StructureMonitor.
+Element k of the HouseModel is body k of the scene, joint k is joint k of the JointEngine and of the Sampler.
 """
 from dataclasses import dataclass
 from operator import attrgetter
@@ -31,25 +31,25 @@ O = yw.Omega()
 # --- storeys ----------------------------------------------------------------------------------------------------------
 
 
-def part_masses():
-    """(P,) masses of the StructureMonitor's parts. [kg]"""
-    monitor = find_engine(yw.StructureMonitor)
-    masses = np.zeros(max(monitor.parts, default=-1) + 1)
-    for body, part in zip(monitor.bodies, monitor.parts):
-        masses[part] += O.bodies[body].state.mass if O.bodies[body] is not None else 0.0
-    return masses
+def part_masses(observed):
+    """(P,) masses of the main structure's parts, the Sampler's groups after the levels. [kg]"""
+    sampler, first = find_engine(yw.Sampler), len(observed.survey.levels)
+    masses = np.zeros(max(sampler.groups) + 1)
+    for body, group in zip(sampler.bodies, sampler.groups):
+        masses[group] += O.bodies[body].state.mass if O.bodies[body] is not None else 0.0
+    return masses[first:]
 
 
-def storeys():
+def storeys(observed, samples):
     """recording.quantities.Storeys of the run."""
-    masses = part_masses()
-    samples = np.array(find_engine(yw.StructureMonitor).rows).reshape(-1, 1 + 3 * len(masses))
-    return quantities.storeys(samples, masses, observer.describe_motion())
+    momenta = samples.momenta(slice(len(observed.survey.levels), None))
+    return quantities.storeys(momenta, part_masses(observed), observer.describe_motion())
 
 
-def storey_peaks(table):
-    """Arguments of Quantities: masses, base shear, accelerations, storeys. table: Storeys of the run, up to a fall"""
-    masses, gravity = part_masses(), gravity_now().norm()
+def storey_peaks(table, masses):
+    """Arguments of Quantities: masses, base shear, accelerations, storeys. table: Storeys of the run, up to a fall;
+    masses: of the parts [kg]"""
+    gravity = gravity_now().norm()
     peaks = {}
     for k in range(1, table.count + 1):
         above = float(masses[2 * k:].sum())
@@ -175,10 +175,10 @@ class Tables:
         return [folder / name for name in NAMES]
 
 
-def tables(observed):
-    """Tables of the run as it is now. observed: Observer of the run"""
+def tables(observed, samples):
+    """Tables of the run as it is now. observed: Observer of the run; samples: of the whole run"""
     peaks = observed.joint_peaks() or [(0.0,) * 4] * len(observed.model.joints)
-    return Tables(storeys(), peaks, joint_rows(observed, peaks), column_feet(observed))
+    return Tables(storeys(observed, samples), peaks, joint_rows(observed, peaks), column_feet(observed))
 
 
 def summarised(tables, observed):
@@ -191,7 +191,7 @@ def summarised(tables, observed):
         until_s=fall,
         modes=Modes(before=observed.modes,
                     after=None if collapsed or observed.modes is None else modes_now(observed.main_levels)),
-        **storey_peaks(tables.storeys.until(fall) if collapsed else tables.storeys),
+        **storey_peaks(tables.storeys.until(fall) if collapsed else tables.storeys, part_masses(observed)),
         largest_utilisation=_largest(LargestUtilisation, tables.joints, "utilisation", "joint", "value", 4),
         largest_pull=_largest(LargestForce, breakable, "pull", "joint", "force"),
         largest_shear=_largest(LargestForce, breakable, "shear", "joint", "force"),

@@ -11,7 +11,6 @@ from ..base.atomic_write import remove
 from ..base.errors import RunError
 from ..recording import frame_log, frames
 from ..recording.append_log import AppendLog
-from ..recording.history import History
 from . import observer
 
 REMEDY = "continue with --no-frames, or run without --resume to start anew"
@@ -70,14 +69,14 @@ class Recorder:
             frames.save(self.path, self.frames)
             self.described = True
 
-    def finish(self, summary, tables):
+    def finish(self, summary, history, tables):
         """Write all frames up to now and the results into one file; returns the Frames. The run may go on.
         summary: Summary; tables: quantities.Tables. Raises OSError.
         """
-        monitor, entries = find_engine(yw.HouseMonitor), list(find_engine(yw.JointEngine).breaks)
+        entries = list(find_engine(yw.JointEngine).breaks)
         breaks = {name: [getattr(entry, name) for entry in entries] for name in observer.BREAKS}
         breaks["cause"] = [observer.cause_of(entry, self.model) for entry in entries]
-        whole = replace(self.frames, summary=summary, history=History(monitor.columns(), monitor.rows), breaks=breaks,
+        whole = replace(self.frames, summary=summary, history=history, breaks=breaks,
                         contacts=frames.Contacts(), **tables.recorded(observer.element_numbers(self.model)))
         self.log.pending = list(self.log.records())
         frame_log.add_frames(whole, self.log.pending)

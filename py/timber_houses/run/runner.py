@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A run: scene -> steps -> results. Command line: cli.py; run in a live session: live.py."""
-import math
 import signal
 import time
 from contextlib import contextmanager
@@ -21,7 +20,7 @@ from .identity import identity, made_from, of_values
 from .observer import Observer
 from .progress import Bar, Status
 from .recorder import Recorder
-from .samples import Samples
+from .samples import SampleFile
 
 STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM)
 HOUSES = "houses.csv"
@@ -149,7 +148,7 @@ class Run(Stoppable):
         self.identity = identity(self.origin)
         self.observer = Observer(self.model, progress)
         run, folder = of_values(self.identity), self.options.folder
-        self.samples = Samples(folder / samples.NAME, run)
+        self.samples = SampleFile(folder / samples.NAME, run)
         titled = title(self.scenario, self.model)
         self.options.say(titled)
         self.recorder = (None if self.options.no_frames
@@ -162,7 +161,7 @@ class Run(Stoppable):
         try:
             if not self.only_export:
                 bar = Bar(self.scenario.name, self.scenario.duration, O.time, self.options.quiet,
-                          Status(self.observer.log))
+                          Status(self.observer))
                 with self._stop_signals(), bar:
                     while O.iter < self.steps:
                         self.advance(self.next_stop())
@@ -198,12 +197,13 @@ class Run(Stoppable):
 
     def is_over(self):
         """Whether the run ends now because its house has collapsed, or its wreck has come to rest."""
-        collapsed = self.scenario.until_collapse and math.isfinite(find_engine(yw.HouseMonitor).collapseTime)
+        collapsed = self.scenario.until_collapse and self.observer.judge.main.fall_s is not None
         return collapsed or self.scenario.until_rest and self.observer.is_over
 
     def take(self, time, last=False):
         """Note events and record a frame of the scene as it is now. time [s]; last: whether it is the final state."""
-        self.observer.observe(time, last)
+        with physics_errors():
+            self.observer.observe(time, last)
         if self.recorder:
             self.recorder.take(time, last)
 
@@ -227,7 +227,9 @@ class Run(Stoppable):
             with os_errors(self._unsaved):
                 if self.recorder:
                     self.recorder.save()
-                progress = {"wall_s": self.wall_s, "samples": self.samples.save(), **self.observer.progress()}
+                self.observer.read_samples()
+                progress = {"wall_s": self.wall_s, "samples": self.samples.save(self.observer),
+                            **self.observer.progress()}
                 checkpoint.save(self.checkpoint_path, self.identity, progress)
             self.last_saved = O.iter
 
@@ -246,13 +248,14 @@ class Run(Stoppable):
             return
         if cut_off is None:
             self.take(O.time, last=True)
-        with self.samples.restored():
-            tables = quantities.tables(self.observer)
-            self.summary = summary.summary(self.scenario, self.observer, tables, self.wall_s, self.origin, cut_off)
-            written = self._results(tables)
+        self.observer.read_samples()
+        sampled = self.samples.all(self.observer)
+        history, tables = sampled.history(self.observer.main_levels), quantities.tables(self.observer, sampled)
+        self.summary = summary.summary(self.scenario, self.observer, sampled, tables, self.wall_s, self.origin, cut_off)
+        written = self._results(history, tables)
         if cut_off or O.iter >= self.steps:  # else a live run goes on
             with explain_writing(self.options):
-                self.samples.enclose(self.checkpoint_path)
+                self.samples.enclose(self.checkpoint_path, self.observer)
         self.options.say(sentence(self.summary))
         with os_errors(lambda fault: f"{self.options.folder}: the results are written, the pictures are not ({fault});"
                                      " scripts/show/show_run.py makes them"):
@@ -266,13 +269,13 @@ class Run(Stoppable):
         if cut_off is None and self.summary.cut_off:
             raise PhysicsError(self.summary.cut_off)
 
-    def _results(self, tables):
+    def _results(self, history, tables):
         written = []
         with explain_writing(self.options):
             if self.recorder:
-                self.frames = self.recorder.finish(self.summary, tables)
+                self.frames = self.recorder.finish(self.summary, history, tables)
                 written.append(self.frames_path)
-            return written + summary.write(self.options.folder, self.summary, tables, self.observer.model)
+            return written + summary.write(self.options.folder, self.summary, history, tables, self.observer.model)
 
 
 def explain_writing(options):

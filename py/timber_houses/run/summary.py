@@ -3,7 +3,6 @@
 import math
 from dataclasses import replace
 
-import numpy as np
 import yade.wrapper as yw
 from yade_timber.energy_terms import DISSIPATED, ELASTIC, IMPOSED
 from yade_timber.plugin import compiled
@@ -16,7 +15,7 @@ from ..base.json_types import decode, encode
 from ..base.table import csv_text
 from ..house import comparison, diagnose, weigh
 from ..recording import drift
-from ..recording.history import BREAKS, History
+from ..recording.history import BREAKS
 from ..recording.history import NAME as HISTORY
 from ..recording.summary import NAME, Summary
 from ..recording.summary_parts import ColumnDrifts, Diagnosis, Energy, Solver, Versions, Walls, Weight
@@ -30,18 +29,18 @@ NAMES = (NAME, HISTORY, BREAKS, *quantities.NAMES)
 O = yw.Omega()
 
 
-def summary(scenario, observed, tables, wall_s, made_from, cut_off=None):
-    """Summary of the scene as it is now. tables: quantities.Tables; wall_s [s]; cut_off: reason for an early end.
+def summary(scenario, observed, samples, tables, wall_s, made_from, cut_off=None):
+    """Summary of the scene as it is now. samples: of the run; tables: quantities.Tables; wall_s [s]; cut_off: reason
+    for an early end.
 
     Drifts: recording/drift.py; broken, columns: recording/damage.py. Raises RunError for energies that are not finite.
     """
     model, survey, state = observed.model, observed.survey, observed.state()
-    monitor, skipper = find_engine(yw.HouseMonitor), find_engine(yw.RestSkipper)
-    history = recorded_history(monitor)
-    tilt, collapse = _finite(monitor.tiltTime), _finite(monitor.collapseTime)
+    skipper, main = find_engine(yw.RestSkipper), observed.judge.main
+    history = samples.history(observed.main_levels)
     residual, amplitude = drift.residual(history)
     simulated = round(O.iter * scenario.dt, 9)
-    structures = survey.by_structure(state, observed.peaks)
+    structures = structures_of(observed, state, samples)
     created = compiled.created_energy()
     energy = (energy_balance(queries.energy(), created) if cut_off is None
               else energy_balance(last_energies(history), _finite(created)))
@@ -57,36 +56,39 @@ def summary(scenario, observed, tables, wall_s, made_from, cut_off=None):
         real_time_factor=round(simulated / wall_s, 6) if wall_s > 0 else None, threads=compiled.thread_count(),
         elements=len(O.bodies), joints=survey.count_all(),
         broken=survey.count_broken(state, len(find_engine(yw.JointEngine).breaks)), columns=survey.count_columns(state),
-        leans_from_s=drift.lean_start(history, tilt, monitor.tiltDirection), tilt_time_s=tilt,
-        tilt_direction=monitor.tiltDirection or None, collapsed=collapse is not None, collapse_time_s=collapse,
+        leans_from_s=drift.lean_start(history, main.tilt_s, main.tilt_direction), tilt_time_s=main.tilt_s,
+        tilt_direction=main.tilt_direction, collapsed=main.fall_s is not None, collapse_time_s=main.fall_s,
         fallen_structures=[name for name, facts in structures.items() if facts.collapsed],
         leaning_structures=[name for name, facts in list(structures.items())[1:] if facts.leans],
-        peak_drift=drift.by_storey(monitor.peak), residual_drift=drift.by_storey(residual),
+        peak_drift=drift.by_storey(main.peak), residual_drift=drift.by_storey(residual),
         final_amplitude=drift.by_storey(amplitude), still_moving=drift.still_moving(amplitude),
         events=observed.log.sorted(), energy=energy, solver=solver(), versions=Versions(**observer.versions()),
         structures=structures, quantities=quantities.summarised(tables, observed), verdict="", sentence="",
         made_from=made_from,
         rest_s=observed.at_rest if scenario.until_rest and observed.is_over else None,
-        column_drift=ColumnDrifts(drift.by_storey(monitor.columnPeak), drift.by_storey(monitor.medianPeak)),
+        column_drift=ColumnDrifts(drift.by_storey(main.column_peak), drift.by_storey(main.median_peak)),
     )
     return judged(draft)
 
 
+def structures_of(observed, state, samples):
+    """{name: Structure} with residual drifts as means over the last periods, the main one first."""
+    levels, found = observed.survey.levels, observed.survey.by_structure(state, observed.judge.structures)
+    for name, facts in found.items():
+        own = [k for k, level in enumerate(levels) if level.structure == name]
+        history = samples.history([levels[k] for k in own], own[0])
+        residual, amplitude = (max(values, default=0.0) for values in drift.residual(history))
+        settled = not drift.still_moving([amplitude]) or amplitude < residual
+        found[name] = replace(facts, residual_drift=residual, settled=settled)
+    return found
+
+
 def judged(draft):
-    """The Summary with verdict and sentences. The main structure is judged by the HouseMonitor, others by frames."""
-    peak, residual = draft.largest_drift()[0], draft.largest_drift("residual_drift")[0]
-    at_columns = draft.largest_at_columns or (0.0,)
-    main = replace(draft.main, peak_drift=peak, column_drift=at_columns[0], residual_drift=residual,
-                   settled=draft.settled, collapsed=draft.collapsed)
-    others = {name: replace(facts, settled=draft.missed_shaking is None) for name, facts in draft.others}
-    draft = replace(draft, structures={next(iter(draft.structures)): main, **others}, verdict=main.verdict)
+    """The Summary with verdict and sentences. No drift is a residual one before the strong shaking is over."""
+    structures = {name: replace(facts, settled=facts.settled and draft.missed_shaking is None)
+                  for name, facts in draft.structures.items()}
+    draft = replace(draft, structures=structures, verdict=next(iter(structures.values())).verdict)
     return replace(draft, diagnosis=replace(draft.diagnosis, disagreement=comparison(draft)), sentence=sentence(draft))
-
-
-def recorded_history(monitor):
-    """History of a HouseMonitor, without samples of a scene whose numbers have failed."""
-    history = History(monitor.columns(), monitor.rows)
-    return History(history.columns, history.rows[np.isfinite(history.rows).all(1)])
 
 
 def last_energies(history):
@@ -151,10 +153,10 @@ def breaks_text(model):
     return csv_text(header, (observer.break_row(entry, model) for entry in find_engine(yw.JointEngine).breaks))
 
 
-def write(folder, result, tables, model):
+def write(folder, result, history, tables, model):
     """Write all files, the summary last: where it is, the others are complete. Returns paths. Raises OSError."""
     paths = tables.write(folder)
-    for name, text in ((HISTORY, recorded_history(find_engine(yw.HouseMonitor)).text()), (BREAKS, breaks_text(model))):
+    for name, text in ((HISTORY, history.text()), (BREAKS, breaks_text(model))):
         write_text(folder / name, text)
         paths.append(folder / name)
     return [*paths, result.write(folder)]

@@ -80,8 +80,7 @@ def build(scenario):
     if scenario.motion is not None:
         motion = engines.ground_motion_engine(scenario.motion, scale=scenario.scale, start=scenario.delay)
     options = {**law_options(model.law), "skip_rest": rest_stride(scenario.dt), **scenario.options}
-    monitors = [house_monitor(model, ids), structure_monitor(model, ids)]
-    O.engines = engines.engines(ground_motion=motion, joints=joints, monitor=monitors, **options)
+    O.engines = engines.engines(ground_motion=motion, joints=joints, monitor=sampler(model, ids), **options)
     O.dt = scenario.dt
     check_step(model)
     return model
@@ -174,23 +173,23 @@ def level_marks(model, structure):
     return marks
 
 
-def house_monitor(model, ids):
-    """HouseMonitor of the main structure's storeys and columns; their height is that of the columns."""
-    main, storeys = next(iter(model.storey_levels.items()))
-    marks, columns = level_marks(model, main), model.of_kind("column", group=main)
-    return yw.HouseMonitor(bodies=[ids[e.name] for e, _ in marks], levels=[level for _, level in marks],
-                           columnBodies=[ids[e.name] for e in columns], columnStoreys=[e.storey for e in columns],
-                           heights=[head - foot for _, (foot, head) in sorted(storeys.items())])
-
-
 STANDING = ("column", "brace", "wall")
 """Kinds of elements that stand in a storey; all others belong to the level above or below."""
 
 
-def structure_monitor(model, ids):
-    """StructureMonitor of the main structure: part 2k is level k, part 2k - 1 what stands in storey k."""
-    main, storeys = next(iter(model.storey_levels.items()))
-    members = [e for e in model.elements if e.group == main and not e.fixed]
-    top = max(storeys)
-    parts = [2 * min(e.storey, top) - (e.kind in STANDING and e.storey <= top) for e in members]
-    return yw.StructureMonitor(bodies=[ids[e.name] for e in members], parts=parts)
+def sampled_columns(model):
+    """Columns whose drifts are judged, in the order of the sampled axes."""
+    return [e for e in model.of_kind("column") if e.group in model.storey_levels]
+
+
+def sampler(model, ids):
+    """Sampler of a house. Its groups: the levels of each structure from below, the main one first; then the parts of
+    the main structure, part 2k: level k, part 2k - 1: what stands in storey k."""
+    groups = [[e for e, level in level_marks(model, structure) if level == storey]
+              for structure, storeys in model.storey_levels.items() for storey in sorted(storeys)]
+    levels, (main, storeys) = len(groups), next(iter(model.storey_levels.items()))
+    top, numbered = max(storeys), [(k, e) for k, group in enumerate(groups) for e in group]
+    numbered += [(levels + 2 * min(e.storey, top) - (e.kind in STANDING and e.storey <= top), e)
+                 for e in model.elements if e.group == main and not e.fixed]
+    return yw.Sampler(bodies=[ids[e.name] for _, e in numbered], groups=[group for group, _ in numbered],
+                      members=[ids[e.name] for e in sampled_columns(model)])

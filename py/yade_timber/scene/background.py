@@ -87,8 +87,7 @@ YADES = (
 OWN = (
     (yw.ContactForces, between_steps, ("largestEigenvalue",)),
     (yw.HealthCheck, between_steps, ("check",)),
-    (yw.HouseMonitor, between_steps, ("columnPeak", "medianPeak", "peak", "rows")),
-    (yw.StructureMonitor, between_steps, ("load", "opening", "pull", "rows", "shear")),
+    (yw.Sampler, between_steps, ("axes", "load", "opening", "pull", "rows", "shear")),
     (yw.JointEngine, between_steps, ("append", "breaks", "joints")),
     (yw.TimberJoint, between_steps, ("broken", "cycles", "forces", "largestStretches", "load", "plasticStretches",
                                      "springs", "stretches")),

@@ -27,7 +27,7 @@ def engines(gravity=GRAVITY, ground_motion=None, joints=None, monitor=None, vert
         By default none.
     joints : list of TimberJoint, optional
         By default the joints that are in ``O.engines`` already (`connect` adds to them).
-    monitor : HouseMonitor, StructureMonitor or list of them, optional
+    monitor : Sampler or list of them, optional
         By default none.
     vertex_edge : bool
         Whether vertex-edge and vertex-vertex contacts exist too. The paper ignores them: bodies whose edges or corners
@@ -93,8 +93,8 @@ def contact_loop(vertex_edge, flush_supports, increment, damping_ratio):
 def monitors(stated):
     """List of the monitors of a scene. stated: as in `engines`"""
     stated = [] if stated is None else stated if isinstance(stated, (list, tuple)) else [stated]
-    kinds, form = (yw.HouseMonitor, yw.StructureMonitor), "a HouseMonitor, a StructureMonitor, a list of them, or None"
-    return [arguments.instance("engines: monitor", monitor, kinds, form) for monitor in stated]
+    return [arguments.instance("engines: monitor", monitor, yw.Sampler, "a Sampler, a list of them, or None")
+            for monitor in stated]
 
 
 def ground_motion_engine(motion, scale=1.0, start=0.0):

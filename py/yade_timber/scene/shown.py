@@ -5,8 +5,7 @@ digits.
 ATTRIBUTES = {"TimberMat": (("young", "Pa"), ("poisson", ""), ("density", "kg/m3"), ("friction", ""),
                             ("bearing", "Pa")),
               "SnowMat": (("density", "kg/m3"), ("friction", "")),
-              "GroundMotionEngine": (("start", "s"), ("scale", "")), "HouseMonitor": (("interval", "s"),),
-              "StructureMonitor": (("interval", "s"),),
+              "GroundMotionEngine": (("start", "s"), ("scale", "")), "Sampler": (("interval", "s"),),
               "ContactForces": (("sweeps", ""), ("tolerance", ""), ("unconverged", "steps")),
               "UniformGravity": (("gravity", "m/s2"),)}
 """Class -> attributes that its line names, and their units."""
