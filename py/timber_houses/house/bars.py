@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..base.remedies import nearest
 from .geometry import SAME, SNAP_DIGITS, cross, halfspace_vertices, polygon_area, polyhedron
 from .parser import Table
 from .schema import fail
@@ -64,7 +65,7 @@ class Parts:
         """Part of 'NAME', the first copy, or 'NAME.3'; HouseError without one, or where two refer to each other."""
         name, _, number = reference.partition(".")
         if name not in self.tables:
-            fail(where, path, f"no member '{reference}'; known: {', '.join(self.tables)}"[:300])
+            fail(where, path, f"no member '{reference}', {nearest(name, self.tables)[:300]}")
         if name in self.asked:
             fail(where, path, f"{name} refers back to {self.asked[-1]}; give one of them by points")
         copies = self[name]
