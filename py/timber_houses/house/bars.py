@@ -54,7 +54,7 @@ class Parts:
             self.asked.append(name)
             table = self.tables[name]
             part = self._plate(name, table) if name in self.plates else self._bar(name, table)
-            self.made[name] = [part.moved(*place) for place in placements(table["repeat"])]
+            self.made[name] = [part.moved(*place) for place in placements(table["repeat"], self.path(name))]
             self.asked.pop()
         return self.made[name]
 
@@ -137,8 +137,8 @@ class Parts:
 
     def _cut(self, name, cut, path, middle):
         """Plane of a cut. middle: of the bar's axis, which remains unless the cut has a normal"""
-        if cut["normal"] is not None:
-            if cut["point"] is None or not np.linalg.norm(cut["normal"]):
+        if cut["normal"] is not None or cut["point"] is not None:
+            if None in (cut["normal"], cut["point"]) or not np.linalg.norm(cut["normal"]):
                 fail(cut.where, path, "a cut by a plane needs 'point' and a 'normal' that is not zero")
             normal = cut["normal"] / np.linalg.norm(cut["normal"])
             return normal, normal @ cut["point"]
@@ -156,6 +156,8 @@ class Parts:
 
     def _plate(self, name, table):
         path = self.path(name)
+        if table["corners"] and table["overhang"]:
+            fail(table.at("overhang"), f"{path}.overhang", "belongs to 'over'; change the corners instead")
         corners = self._covering(table, path) if table["over"] else np.array(table["corners"])
         _, _, axes = np.linalg.svd(corners - corners.mean(0), full_matrices=False)
         normal, off = axes[2], (corners - corners.mean(0)) @ axes[2]
@@ -238,10 +240,19 @@ def sides(corners, along, roll, point):
     return [(normal @ axes, normal @ axes @ point + normal @ corner) for normal, corner in zip(normals, corners)]
 
 
-def placements(steps):
-    """[(matrix (3, 3), shift (3,))] of the copies of a part: each step repeats all that the steps before it made."""
+STEPS = {"by": ("count",), "turn": ("count", "about"), "mirror": ("at",)}
+"""Forms of a step of `repeat`, and the keys that belong to them."""
+
+
+def placements(steps, path):
+    """[(matrix (3, 3), shift (3,))] of the copies of a part: each step repeats all that the steps before it made.
+    path: of the part, for messages"""
     places = [(np.eye(3), np.zeros(3))]
     for step in steps:
+        form = next(form for form in STEPS if step[form] is not None)
+        for key in step.entries:
+            if key not in (form, *STEPS[form]):
+                fail(step.at(key), f"{path}.repeat.{key}", f"does not belong to '{form}'; remove it")
         matrix, shift = _step(step)
         copies, last = list(places), places
         for _ in range(1, 2 if step["mirror"] else step["count"]):
