@@ -57,6 +57,31 @@ snow: {depth: 0.5}
 plumb: {drift: 0.001}
 """
 
+FRAME = """\
+extends: frame
+name: portal
+frame:
+  members:
+    sill: {from: [0, -1, 0.1], to: [0, 1, 0.1], section: [0.2, 0.2], kind: sill, fixed: true,
+           repeat: {mirror: x, at: 1}}
+    post: {from: {of: sill, at: 1}, to: [0, 0, 2], section: [0.1, 0.1], kind: column,
+           repeat: {turn: 180, about: [1, 0]}}
+    tie: {from: [-0.2, 0, 2.1], to: [2.2, 0, 2.1], section: [0.1, 0.2]}
+    rafter: {from: [0, 0, 2.2], to: [1, 0, 2.7], profile: [[-0.05, -0.1], [0.05, -0.1], [0.05, 0.1], [-0.05, 0.1]],
+             kind: rafter, roll: 0, cuts: [{by: tie}, {x: 1}], repeat: {mirror: x, at: 1}}
+    king: {from: {of: tie, at: 1.2, offset: [0, 0, 0.1]}, to: [1, 0, 2.6], section: [0.1, 0.1], kind: column,
+           cuts: [{by: rafter}, {by: rafter.2}, {point: [1, 0, 2.45], normal: [0, 0, 1]}]}
+    knee: {from: {of: post, at: 1.2}, to: {of: tie, at: 0.9}, section: [0.08, 0.08], kind: brace}
+  plates:
+    roof: {over: [rafter, rafter], overhang: 0.3, thickness: 0.1, kind: roof, material: roofing}
+    slab: {corners: [[0.3, -0.5, 2.2], [0.5, -0.5, 2.2], [0.5, 0.5, 2.2]], thickness: 0.05}
+  storeys: [[0.2, 2]]
+  joints: [{between: [knee, tie], type: bracing_plate, gap: 0.01}]
+loads: {roof: 0.5}
+snow: {depth: 0.2}
+joint_search: {gap: 0.02}
+"""
+
 HOSTILE = [
     "",
     " ",
@@ -199,8 +224,8 @@ VALUES = st.sampled_from([
 
 @st.composite
 def damaged_trees(draw):
-    """The shed with some values replaced, removed or repeated."""
-    tree = yaml.safe_load(SHED)
+    """The shed or the frame with some values replaced, removed or repeated."""
+    tree = yaml.safe_load(draw(st.sampled_from([SHED, FRAME])))
     for _ in range(draw(st.integers(1, 3))):
         node, places = tree, []
         while node and isinstance(node, (dict, list)):
@@ -231,11 +256,12 @@ ROOFS = st.sampled_from([
 
 @st.composite
 def varied_trees(draw):
-    """The shed with another roof and a few numbers replaced by others, small and large, that often are admissible."""
-    tree = yaml.safe_load(SHED.replace("type: gable, pitch", draw(ROOFS)))
+    """The shed with another roof, or the frame, and a few numbers replaced by others, small and large, that often are
+    admissible.
+    """
+    tree = yaml.safe_load(draw(st.sampled_from([SHED.replace("type: gable, pitch", draw(ROOFS)), FRAME])))
     for _ in range(draw(st.integers(1, 3))):
-        numbers = list(_numbers(tree["structures"]["shed"])) + [(tree["snow"], "depth"), (tree["plumb"], "drift")]
-        node, key = draw(st.sampled_from(numbers))
+        node, key = draw(st.sampled_from(list(_numbers(tree))))
         node[key] = draw(SIZES) if draw(st.booleans()) else node[key] * draw(st.floats(0.5, 2))
     return yaml.safe_dump(tree, sort_keys=False).encode()
 
@@ -249,7 +275,7 @@ def _numbers(node):
             yield node, key
 
 
-house_files = varied_trees() | damaged_trees() | damaged_texts([SHED]) | st.binary(max_size=200)
+house_files = varied_trees() | damaged_trees() | damaged_texts([SHED, FRAME]) | st.binary(max_size=200)
 record_files = damaged_texts(record_texts()) | st.binary(max_size=200)
 
 TOWNS = {

@@ -3,8 +3,9 @@
 """Make the README's pictures from finished runs: make_gallery.py [results] [--out docs]. Needs no YADE.
 
 Reads the folders modelA_quake, modelC_quake, modelC2_snow, A_quake_snow and C_quake_snow in results; the
-last two are runs of scripts/house.py A (or C) --quake --snow 1 --out results/A_quake_snow. Writes DIR/modelC2_snow.png,
-DIR/l_house.png and DIR/gallery/*.png, and two films of houses A and C under the same load, DIR/gallery/film.webp and
+last two are runs of scripts/house.py A (or C) --quake --snow 1 --out results/A_quake_snow. Folders of FRAMES that are
+there, runs of docs/frames.md, become DIR/gallery/*_fall.png. Writes DIR/modelC2_snow.png, DIR/l_house.png and
+DIR/gallery/*.png, and two films of houses A and C under the same load, DIR/gallery/film.webp and
 film_snow.webp; the picture of the player needs Chromium.
 """
 import argparse
@@ -33,6 +34,8 @@ LEAD = "modelC2_snow"
 HOUSE, EXAMPLE = "C2", "l_house"
 COMPARED = ("modelA_quake", "modelC_quake")
 FILMS = {"film.webp": COMPARED, "film_snow.webp": ("A_quake_snow", "C_quake_snow")}
+FRAMES, STILL = ("barn", "bell_tower", "footbridge"), film.Format(width=560, height=380)
+"""Runs shown at their start and at their end, and the size of either picture."""
 AFTER_COLLAPSE = 1.0
 """Time shown in the comparison, after the collapse of the first run. [s]"""
 FILM, SPAN = film.Format(width=640, height=370, rate=10, quality=30), (-3.0, 2.2)
@@ -88,6 +91,14 @@ def compared(runs, time):
         return Image.open(picture).convert("RGB")
 
 
+def start_and_end(run):
+    """The first and the last state of a run side by side."""
+    stage, both = film.Pictures([run], "space", STILL), Image.new("RGB", (2 * STILL.width, STILL.height))
+    for number, time in enumerate((run.time[0], run.time[-1])):
+        both.paste(stage.at(time), (number * STILL.width, 0))
+    return both
+
+
 def ended(folder):
     """Frames of a run that has ended. Raises RunError when it has not."""
     run = frames.load(folder / frames.NAME)
@@ -118,7 +129,13 @@ def make(results, out):
         film.write(gallery / name, [runs[run] for run in pair], form=FILM, begin=begin, end=end)
         written.append(gallery / name)
     written.append(write(out / f"{LEAD}.png", sheets.both_views(runs[LEAD], -1, sheets.END_DPI)))
-    return written
+    return written + make_frames(results, gallery)
+
+
+def make_frames(results, gallery):
+    """Pictures of the runs of FRAMES that are there; returns their paths."""
+    return [save(gallery / f"{name}_fall.png", start_and_end(ended(results / name)))
+            for name in FRAMES if (results / name).is_dir()]
 
 
 def main():

@@ -20,7 +20,7 @@ from timber_houses.base.joint_kinds import WALL_KINDS
 from timber_houses.house import build_house, check_house, load_house, overlaps, shipped_houses
 
 HOUSES = ["A", "B", "C", "B1", "B2", "C1", "C2"]
-EXAMPLES = ["storehouse", "l_house", "tiled_house"]
+EXAMPLES = ["storehouse", "l_house", "tiled_house", "barn", "bell_tower"]
 WIDTH, DEPTH, RUN, RISE, CUT, SLAB = 8.34, 7.43, 3.715, 1.30, 0.20, 0.12  # hip roof [m]
 
 
@@ -34,7 +34,7 @@ def points(elements):
 
 
 def test_shipped_houses():
-    assert shipped_houses() == sorted([*HOUSES, *EXAMPLES, "ubc3s"])
+    assert shipped_houses() == sorted([*HOUSES, *EXAMPLES, "footbridge", "ubc3s"])
 
 
 @pytest.mark.parametrize("name, braces, brace_joints", [("A", 0, 0), ("B", 16, 32), ("C", 44, 88)])

@@ -12,7 +12,8 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
 
 from timber_houses.house.layout import HOUSE
-from timber_houses.house.schema import REQUIRED, Choice, Flag, ListOf, MapOf, Number, Pair, Record, Text, Variants
+from timber_houses.house.schema import (REQUIRED, Choice, Either, Flag, ListOf, MapOf, Number, Pair, Record, Text,
+                                        Variants)
 
 PAGE = ROOT / "docs" / "house_files.md"
 HEADING = re.compile(r"^#+ .*`([^`]*)`$")
@@ -27,6 +28,8 @@ def tables(field, path=""):
         yield from tables(field.item, path + "[]")
     elif isinstance(field, MapOf):
         yield from tables(field.item, path + ".*")
+    elif isinstance(field, Either):
+        yield from tables(field.table, path)
     elif isinstance(field, Variants):
         for option, form in field.options.items():
             yield from tables(form,
@@ -44,6 +47,8 @@ def value_words(field):
         return f"{'whole, ' if field.whole else ''}{field._range().removeprefix(' in ')}{off}"
     if isinstance(field, Pair):
         return f"list of 2 ({value_words(field.first)}; {value_words(field.second)})"
+    if isinstance(field, Either):
+        return f"{value_words(field.listed)}, or table"
     if isinstance(field, ListOf):
         one = ", or one alone" if field.scalar else ""
         return f"list of {f'{field.length} ' if field.length else ''}({value_words(field.item)}){one}"

@@ -4,23 +4,19 @@ from collections import Counter
 
 import numpy as np
 
-from .braces import lay_braces
 from .check import check_house
 from .damage import apply_damage
 from .description import require_snow_depth
 from .errors import HouseError
+from .frame import Frame
 from .geometry import box
+from .grid import Grid
 from .joints import find_joints
+from .layout import FRAME
 from .loads import apply_loads
-from .members import column_plan, lay_columns, lay_floors, lay_strips
 from .model import Element, HouseModel
-from .plan import plan_of
-from .roof import carry_roofs, lay_roof, lay_snow
-from .structure import OUTWARD, Structure, require_few
+from .structure import OUTWARD, require_few
 from .wall_types import has_rated_walls
-from .walls import sheathe
-
-STRIPS = {"foundation": "foundation", "sill": "sill", "beams": "beam"}
 
 
 def build_house(description, snow_depth=None, check=True, wall_level=None):
@@ -29,25 +25,19 @@ def build_house(description, snow_depth=None, check=True, wall_level=None):
     level = wall_level or data["law"]["wall_level"]
     depth = data["snow"]["depth"] if snow_depth is None else float(snow_depth)
     require_snow_depth(depth, "snow depth")
-    structures = {}
-    for name, table in data["structures"].items():
-        structure = structures[name] = Structure(name, table, data["materials"], structures)
-        structure.plans = {storey: plan_of(structure, storey) for storey in structure.storeys}
-    _require_storeys(structures)
+    structures = _structures(data)
     elements = [_ground(data, structures)]
     for structure in structures.values():
-        for layer in structure.layers:
-            elements += _layer_elements(structure, layer, depth, data["snow"]["material"])
+        elements += structure.lay((depth, data["snow"]["material"]))
         require_few(len(elements), structure.table.where, f"structures.{structure.name}")
     if data["plumb"]["drift"]:
         _lean(elements[1:], structures, data["plumb"])
     _number_repeats(elements)
     apply_loads(elements, structures, data["loads"])
     _check_snow(data, elements, depth)
-    joints = find_joints(elements, description)
+    joints = find_joints(elements, data, {pair: rule for s in structures.values() for pair, rule in s.named.items()})
     for structure in structures.values():
-        carry_roofs(structure, elements, joints)
-        joints += sheathe(structure, elements, data, level)
+        joints += structure.further_joints(elements, joints, data, level)
     apply_damage(joints, structures, data["damage"])
     model = _model(description, elements, joints, structures, depth)
     model.law["wall_level"] = level if has_rated_walls(data) else None
@@ -56,25 +46,20 @@ def build_house(description, snow_depth=None, check=True, wall_level=None):
     return model
 
 
-def _require_storeys(structures):
-    """HouseError for a storey that the stack does not have, and for a first structure without a storey: its drifts are
-    reported."""
-    for name, structure in structures.items():
-        table, storeys = structure.table, list(structure.storeys)
-        if table["columns"] and not storeys:
-            raise HouseError(f"{table.at('columns')}: structures.{name}.columns: its stack has no layer of columns; add"
-                             " one or remove the columns")
-        for part, line in [*((f"columns[{i}]", group) for i, group in enumerate(table["columns"], 1)),
-                           *(("braces", line) for line in table["braces"]["lines"]),
-                           *(("walls", line) for line in table["walls"])]:
-            absent = [storey for storey in line["storeys"] if storey not in storeys]
-            if absent:
-                raise HouseError(f"{line.at('storeys')}: {name}: {part}: no storey {absent[0]}; the stack has"
-                                 f" {storeys}")
+def _structures(data):
+    """{name: Grid or Frame}. HouseError for a first structure without a storey: its drifts are reported."""
+    structures: dict = {}
+    for name, table in data["structures"].items():
+        structures[name] = Grid(name, table, data["materials"], structures)
+    for structure in structures.values():
+        structure.require_storeys()
+    if data["frame"] is not None:
+        structures[FRAME] = Frame(data["frame"], data["materials"])
     name, main = next(iter(structures.items()))
-    if not main.storeys:
+    if not main.levels:
         raise HouseError(f"{main.table.where}: structures.{name}: the first structure needs a layer of columns, as its"
                          " storey drifts are reported; put a structure with columns first")
+    return structures
 
 
 def _check_snow(data, elements, depth):
@@ -92,34 +77,21 @@ def _number_repeats(elements):
             element.name += f".{seen[element.name]}"
 
 
-def _layer_elements(structure, layer, depth, snow_material):
-    if layer.kind in STRIPS:
-        return lay_strips(structure, layer, STRIPS[layer.kind])
-    if layer.kind == "floor":
-        return lay_floors(structure, layer)
-    if layer.kind == "columns":
-        return lay_columns(structure, layer) + lay_braces(structure, layer)
-    return lay_roof(structure, layer) + lay_snow(structure, layer, depth, snow_material)
-
-
 def _lean(elements, structures, plumb):
     """Construction tolerance: shear all above the lowest columns' feet by `drift`; faces stay flush."""
-    foot = min(structure.storeys[1].z0 for structure in structures.values() if structure.storeys)
+    foot = min(structure.levels[1][0] for structure in structures.values() if structure.levels)
     direction = np.array([*OUTWARD[plumb["towards"]], 0.0])
     for element in elements:
         rise = np.maximum(element.vertices[:, 2] - foot, 0.0)
         element.move(element.vertices + plumb["drift"] * rise[:, None] * direction)
 
 
-def _plans(elements, structure):
-    """{storey: FloorPlan} at mid height of the storey's columns, which may lean."""
+def _plans(by_name, structure):
+    """{storey: FloorPlan} at mid height of the storey's columns, which may lean. by_name: {name: element}"""
     plans = {}
     for storey, plan in structure.plans.items():
-        column = next((e for e in elements if e.kind == "column" and e.group == structure.name
-                       and e.storey == storey), None)
-        node = next(iter(column_plan(structure, storey)), None)
-        at = [structure.position(axis, n) for axis, n in zip("xy", node or ())]
-        plans[storey] = plan.moved(column.solid.centroid[:2] - at) if column else plan
+        place, name = next(iter(plan.columns.items()), (None, None))
+        plans[storey] = plan.moved(by_name[name].solid.centroid[:2] - place) if name else plan
     return plans
 
 
@@ -139,14 +111,13 @@ def _ground(data, structures):
 
 
 def _model(description, elements, joints, structures, depth):
-    data = description.data
-    levels = {s.name: {storey: (layer.z0, layer.z1) for storey, layer in s.storeys.items()}
-              for s in structures.values()}
-    grids = {s.name: s.grid for s in structures.values()}
+    data, by_name = description.data, {element.name: element for element in elements}
     return HouseModel(data["name"], data["description"], elements, joints,
                       {k: dict(v) for k, v in data["materials"].items()},
                       [(*pair["between"], pair["coefficient"]) for pair in data["friction"]], dict(data["law"]), depth,
-                      levels, grids, {s.name: _plans(elements, s) for s in structures.values()},
+                      {s.name: s.levels for s in structures.values()},
+                      {s.name: s.grid for s in structures.values() if isinstance(s, Grid)},
+                      {s.name: _plans(by_name, s) for s in structures.values()},
                       {s.name: {**data["diagnosis"], "wall_load": _own(s, data, "wall")} for s in structures.values()})
 
 

@@ -39,18 +39,36 @@ def _report_overlap(a, b, gap, count):
     x, y, z = (low + high) / 2
     strips = {a.kind, b.kind} <= {"foundation", "sill", "beam"}
     remedy = "move or shorten one of them" + ", or give one of the lines cut: true where they meet" * strips
+    if b.axis is not None:
+        remedy = f"end one at the other (to: {{of: ...}}) or cut it (cuts: [{{by: {a.name.partition('.')[2]}}}])"
     more = f" (and {count - 1} more such pairs)" if count > 1 else ""
     raise HouseError(f"{b.source}: {b.kind} {b.name} overlaps {a.kind} {a.name} ({a.source}) by {-gap * 1000:.3g} mm "
                      f"near x {x:.3f}, y {y:.3f}, z {z:.3f} m; {remedy}{more}")
 
 
 def _check_ends(model, touching):
-    """Each column and brace needs a joint on a level face at its foot and one at its head."""
+    """Each column and brace of a grid needs a joint on a level face at its foot and one at its head; in a frame, a
+    column needs a joint or support at its foot, a brace a joint at either end."""
     jointed = {(joint.a, joint.end) for joint in model.joints if abs(joint.normal[2]) > LYING}
+    near = _joined_halves(model)
     for member in model.of_kind(*END_JOINED):
-        for end in ("bottom", "top"):
-            if (member.name, end) not in jointed:
+        is_single = member.axis is not None
+        for end in ("bottom", "top") if member.kind == "brace" or not is_single else ("bottom",):
+            if (member.name, end) not in (near if is_single else jointed) and not (
+                    member.kind == "column" and is_single and _lying_at(member, end, touching)):
                 _report_loose_end(member, end, touching)
+
+
+def _joined_halves(model):
+    """{(name of a member of a frame, 'top' or 'bottom' half in which it has a joint)}"""
+    halves = set()
+    for joint in (joint for joint in model.joints if joint.kind not in WALL_KINDS):
+        for member in map(model.element, (joint.a, joint.b)):
+            if member.axis is not None:
+                low, high = sorted(member.axis, key=lambda end: end[2])
+                is_top = (joint.centre - (low + high) / 2) @ (high - low) > 0
+                halves.add((member.name, "top" if is_top else "bottom"))
+    return halves
 
 
 def _report_loose_end(member, end, touching):
@@ -61,6 +79,9 @@ def _report_loose_end(member, end, touching):
         raise HouseError(f"{place} has no joint at its {end}, where a contact area of {1e4 * area:.3g} cm2 touches"
                          f" {mate.kind} {mate.name} at {where}; add a rule for {member.kind} and {mate.kind} to"
                          " 'joints', or enlarge the contact area (joint_search.min_area)")
+    if member.axis is not None:
+        raise HouseError(f"{place} {'stands on nothing' if end == 'bottom' else 'ends at nothing'} at {where}; let it"
+                         " end at a member (from: {of: ...}), and see that a rule of 'joints' joins the two kinds")
     verb = "stands on nothing" if end == "bottom" else "supports nothing"
     raise HouseError(f"{place} {verb} at {where}; lay a beam, sill or floor there or remove the {member.kind}")
 

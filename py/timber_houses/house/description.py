@@ -7,8 +7,8 @@ from ..base.input_file import is_file, is_folder, shown
 from ..base.remedies import nearest
 from .errors import HouseError
 from .friction import check_friction
-from .joint_values import check_joint_rules, check_joint_types
-from .layout import HOUSE, MAX_SNOW, MAX_WOOD, MIN_SNOW
+from .joint_values import check_joint_rules, check_joint_types, check_named_joints
+from .layout import FRAME, HOUSE, MAX_SNOW, MAX_WOOD, MIN_SNOW
 from .loader import load_table, shipped_houses, shipped_paths
 from .parser import Table
 from .schema import fail
@@ -42,6 +42,7 @@ def checked(table, path):
     check_friction(data)
     check_joint_types(data["joint_types"])
     check_joint_rules(data["joints"], data["joint_types"])
+    check_named_joints(data["frame"], data["joint_types"])
     check_wall_types(data["wall_types"])
     require_snow_depth(data["snow"]["depth"], f"{data['snow'].at('depth')}: snow.depth")
     return data
@@ -76,8 +77,10 @@ def house_path(name):
 
 def _check_references(data):
     """Every referenced material, joint type, wall type and structure must exist."""
-    if not data["structures"]:
-        fail(data.at("structures"), "structures", "a house needs at least one structure")
+    if not data["structures"] and not (data["frame"] and data["frame"]["members"]):
+        fail(data.at("structures"), "structures", "a house needs at least one structure, or a frame with members")
+    if FRAME in data["structures"] and data["frame"]:
+        fail(data["structures"].at(FRAME), "structures", f"'{FRAME}' is the name of the frame; choose another one")
     for name, known, noun, where, path in _references(data):
         if name not in known:
             fail(where, path, f"unknown {noun} '{name}', {nearest(name, known)}")
@@ -89,17 +92,22 @@ def _references(data):
     for name, structure in data["structures"].items():
         users.append((structure["braces"], f"structures.{name}.braces"))
         users += [(layer, f"structures.{name}.stack[{i}]") for i, layer in enumerate(structure["stack"], 1)]
+    frame = data["frame"] or {"members": {}, "plates": {}, "joints": ()}
+    users += [(part, f"frame.{key}.{name}") for key in ("members", "plates") for name, part in frame[key].items()]
     for table, path in users:
         yield table["material"], data["materials"], "material", table.at("material"), f"{path}.material"
     for name, rule in data["joints"].items():
         yield rule["type"], data["joint_types"], "joint type", rule.at("type"), f"joints.{name}.type"
+    for i, rule in enumerate(frame["joints"], 1):
+        yield rule["type"], data["joint_types"], "joint type", rule.at("type"), f"frame.joints[{i}].type"
     for name, structure in data["structures"].items():
         for i, line in enumerate(structure["walls"], 1):
             for wall in line["type"]:
                 yield wall, data["wall_types"], "wall type", line.at("type"), f"structures.{name}.walls[{i}].type"
     for i, region in enumerate(data["damage"]["regions"], 1):
         if region["structure"] is not None:
-            yield (region["structure"], data["structures"], "structure", region.at("structure"),
+            structures = [*data["structures"], *([FRAME] if data["frame"] else [])]
+            yield (region["structure"], structures, "structure", region.at("structure"),
                    f"damage.regions[{i}].structure")
     for i, pair in enumerate(data["friction"], 1):
         for material in pair["between"]:

@@ -291,7 +291,8 @@ def _uplift(model, group, bays):
 
     The corrections for the direction of braces are left out.
     """
-    columns = {(c.storey, c.name.rpartition(".")[2]): c for c in model.of_kind("column", group=group)}
+    columns = {(storey, place): model.element(name) for storey, plan in model.plans[group].items()
+               for place, name in plan.columns.items()}
     strengths = _foot_strengths(model)
     needs = [(n_value(columns, key, bays, model.plans[group]), strengths.get(column.name, 0.0), column.name)
              for key, column in columns.items()]
@@ -306,7 +307,7 @@ def _uplift(model, group, bays):
 def n_value(columns, key, bays, plans):
     """N = sum of A B over a column and those above, less L; the larger direction.
 
-    columns: {(storey, node): ...}; plans: {storey: FloorPlan}
+    columns: {(storey, (x, y) as laid): ...}; plans: {storey: FloorPlan}
     """
     storey, node = key
     stack = [columns[level, node] for level in sorted(plans) if level >= storey and (level, node) in columns]

@@ -218,9 +218,14 @@ def contact_polygon(a, b, tolerance):
     return best
 
 
-@lru_cache(maxsize=KEPT)
 def separation(a, b):
-    """Gap [m] between two polyhedra along the best separating axis; negative: depth by which they overlap.
+    """Gap [m] between two polyhedra along the best separating axis; negative: depth by which they overlap."""
+    return _separation(a, b)[0]
+
+
+@lru_cache(maxsize=KEPT)
+def _separation(a, b):
+    """(gap [m], unit vector from a to b) of the best separating axis.
 
     Separating axis theorem: face normals of both and cross products of their edges decide exactly for convex bodies.
     """
@@ -229,4 +234,31 @@ def separation(a, b):
     crosses = crosses[norms > 1e3 * SAME] / norms[norms > 1e3 * SAME][:, None]
     axes = np.vstack([a.normals, b.normals, crosses])
     on_a, on_b = a.vertices @ axes.T, b.vertices @ axes.T
-    return float(np.maximum(on_b.min(0) - on_a.max(0), on_a.min(0) - on_b.max(0)).max())
+    ahead, behind = on_b.min(0) - on_a.max(0), on_a.min(0) - on_b.max(0)
+    gaps = np.maximum(ahead, behind)
+    best = int(gaps.argmax())
+    return float(gaps[best]), axes[best] * (1.0 if ahead[best] >= behind[best] else -1.0)
+
+
+def facing_polygon(a, b, gap):
+    """As `contact_polygon`, of two polyhedra that are at most `gap` [m] apart: the common part, midway between them, of
+    what lies within `gap` of the nearest points of either along their best separating axis."""
+    distance, normal = _separation(a, b)
+    if not -SAME <= distance <= gap:
+        return None
+    frame = np.array(plane_axes(normal))
+    heights = a.vertices @ normal, b.vertices @ normal
+    flats = [_outline(a.vertices[heights[0] >= heights[0].max() - gap - SAME] @ frame.T),
+             _outline(b.vertices[heights[1] <= heights[1].min() + gap + SAME] @ frame.T)]
+    flat = clip_convex(*flats) if all(len(points) > 2 for points in flats) else np.zeros((0, 2))
+    if len(flat) < 3:
+        return None
+    return flat @ frame + (heights[0].max() + distance / 2) * normal, normal, polygon_area(flat)
+
+
+def _outline(points):
+    """Corners (n, 2), counter-clockwise, of the convex hull of points in a plane; none of points on a line."""
+    try:
+        return points[ConvexHull(points).vertices]
+    except (QhullError, ValueError):
+        return np.zeros((0, 2))

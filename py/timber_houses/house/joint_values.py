@@ -31,22 +31,19 @@ def check_joint_types(types):
 def kinds_of(rule):
     """[(kind a, kind b)] of a rule; a is the brace, else the column, else the first kind of the rule."""
     pairs = {frozenset((a, b)): (a, b) for a in rule["between"][0] for b in rule["between"][1]}
-    return [tuple(sorted(pair, key=lambda kind: (*END_JOINED, kind).index(kind))) for pair in pairs.values()]
+    return [tuple(sorted(pair, key=first)) for pair in pairs.values()]
+
+
+def first(kind):
+    """Sorts the kinds of the two members of a joint."""
+    return (*END_JOINED, kind).index(kind)
 
 
 def check_joint_rules(rules, types):
     """HouseError for two rules for the same kinds of members, for a kind of joint that only walls have, and for a
     strength that a yielding joint cannot have."""
     for name, rule in rules.items():
-        table = types[rule["type"]]
-        if table["law"] == "slip" and rule["strength"] is not None:
-            most = rule["number"] * rule["share"] * table["kn"] * table["softening_stretch"]
-            if not rule["strength"] < most:
-                fail(rule.at("strength"), f"joints.{name}.strength", f"must be below number x share x kn x"
-                     f" softening_stretch = {most:g} N with law slip, got {rule['strength']:g}")
-        if rule["kind"] in WALL_KINDS:
-            fail(rule.at("kind"), f"joints.{name}.kind",
-                 f"'{rule['kind']}' is the kind of the joints of sheathed walls; choose another name")
+        _check_rule(rule, f"joints.{name}", types)
     names = {}
     for name, rule in rules.items():
         for a, b in map(sorted, kinds_of(rule)):
@@ -54,6 +51,24 @@ def check_joint_rules(rules, types):
             if first != name:
                 fail(rule.where, f"joints.{name}",
                      f"joins {a} and {b} as joints.{first} does; remove one, with null if it is inherited")
+
+
+def check_named_joints(frame, types):
+    """The same of the joints of a frame that are given by the names of their members. frame: table or None"""
+    for i, rule in enumerate(frame["joints"] if frame else (), 1):
+        _check_rule(rule, f"frame.joints[{i}]", types)
+
+
+def _check_rule(rule, path, types):
+    table = types[rule["type"]]
+    if table["law"] == "slip" and rule["strength"] is not None:
+        most = rule["number"] * rule["share"] * table["kn"] * table["softening_stretch"]
+        if not rule["strength"] < most:
+            fail(rule.at("strength"), f"{path}.strength", f"must be below number x share x kn x softening_stretch ="
+                 f" {most:g} N with law slip, got {rule['strength']:g}")
+    if rule["kind"] in WALL_KINDS:
+        fail(rule.at("kind"), f"{path}.kind",
+             f"'{rule['kind']}' is the kind of the joints of sheathed walls; choose another name")
 
 
 def joint_values(data, rule, part=1):

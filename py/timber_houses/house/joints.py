@@ -2,13 +2,13 @@
 """Joints found from the contact areas between elements: four springs at the corners of the contact area (paper, 4), or
 one at its centre."""
 from collections import Counter
-from itertools import combinations
+from itertools import combinations, product
 
 import numpy as np
 
 from .errors import HouseError
-from .geometry import contact_polygon, plane_axes, polygon_area
-from .joint_values import END_JOINED, joint_values, kinds_of
+from .geometry import contact_polygon, facing_polygon, plane_axes, polygon_area, separation
+from .joint_values import END_JOINED, first, joint_values, kinds_of
 from .limits import MAX_PAIRS
 from .model import JointSpec
 from .schema import fail
@@ -17,42 +17,68 @@ LYING = 0.1
 """Vertical part of a contact's unit normal from which on one element lies on the other: slopes up to 84 degrees. [-]"""
 
 
-def find_joints(elements, description):
-    """JointSpec for every pair of elements whose kinds match a rule and whose faces lie flush on each other.
+def find_joints(elements, data, named=None):
+    """JointSpec for every pair of elements whose kinds match a rule of the house file, or whose names one of `named`
+    {frozenset of names: rule}, and whose faces lie flush on each other, or within the gap of `joint_search` or of the
+    named rule.
 
     Contacts below `joint_search.min_area` get none: a 12 cm column touches the beam beside its own by a strip. Joints
     of a rule at one face of an end share its fittings by their areas: a column end on two crossing beams. HouseError
-    for a rule between structures that joins none.
+    for a rule between structures, or of two named members, that joins none.
     """
-    rules = description.data["joints"]
-    contacts = _contacts(elements, description.data)
-    structures = {element.group for element in elements if element.kind != "ground"}
-    for name, rule in rules.items():
-        if rule["across"] and len(structures) > 1 and all(name != other for *_, other, _ in contacts):
+    named = named or {}
+    contacts = _contacts(elements, data, named)
+    used, structures = {key for *_, key, _ in contacts}, {e.group for e in elements if e.kind != "ground"}
+    for name, rule in data["joints"].items():
+        if rule["across"] and len(structures) > 1 and name not in used:
             fail(rule.where, f"joints.{name}", "'across: true' joins no two structures: let their members touch, or"
                  f" remove the rule ({name}: null)")
-    faces = [_end_face(a, name, contact) for a, _, name, contact in contacts]
+    for pair, rule in named.items():
+        if pair not in used:
+            _report_apart(elements, pair, rule)
+    faces = [_end_face(a, key, contact) for a, _, key, contact in contacts]
     areas = Counter()
     for face, (*_, contact) in zip(faces, contacts):
         areas[face] += contact[2]
-    return [_joint(a, b, contact, joint_values(description.data, rules[name], contact[2] / areas[face] if face else 1))
-            for face, (a, b, name, contact) in zip(faces, contacts)]
+    rules = {**data["joints"], **named}
+    return [_joint(a, b, contact, joint_values(data, rules[key], contact[2] / areas[face] if face else 1))
+            for face, (a, b, key, contact) in zip(faces, contacts)]
 
 
-def _contacts(elements, data):
-    """[(element, element, name of the rule, contact_polygon)]; the first element is the rule's first kind."""
+def _contacts(elements, data, named):
+    """[(element, element, key of the rule, polygon, normal and area)]; the first element is the rule's first kind."""
     rules = {(*kinds, rule["across"]): name for name, rule in data["joints"].items() for kinds in kinds_of(rule)}
-    tolerance, min_area = data["joint_search"]["plane_tolerance"], data["joint_search"]["min_area"]
-    contacts = []
-    for a, b in near_pairs(elements, tolerance):
-        across = a.group != b.group
-        if (a.kind, b.kind, across) not in rules:
-            a, b = b, a
-        name = rules.get((a.kind, b.kind, across))
-        contact = name and contact_polygon(a.solid, b.solid, tolerance)
-        if contact and contact[2] >= min_area:
-            contacts.append((a, b, name, contact))
+    search, contacts = data["joint_search"], []
+    gaps = [search["gap"], *(rule["gap"] for rule in named.values())]
+    for pair in near_pairs(elements, max(search["plane_tolerance"], *gaps) if any(gaps) else search["plane_tolerance"]):
+        a, b = sorted(pair, key=lambda element: first(element.kind))
+        key = next(filter(named.__contains__, map(frozenset, product(_names(a), _names(b)))), None) if named else None
+        if key is None:
+            across = a.group != b.group
+            if (a.kind, b.kind, across) not in rules:
+                a, b = b, a
+            key = rules.get((a.kind, b.kind, across))
+        contact = key and contact_polygon(a.solid, b.solid, search["plane_tolerance"])
+        gap = max(search["gap"], named[key]["gap"] if key in named else 0.0)
+        if key and gap and not contact:
+            contact = facing_polygon(a.solid, b.solid, gap)
+        if contact and contact[2] >= search["min_area"]:
+            contacts.append((a, b, key, contact))
     return contacts
+
+
+def _names(element):
+    """Those by which a file may mean an element of a frame: its own, and that of all copies."""
+    return element.name, element.name.rpartition(".")[0]
+
+
+def _report_apart(elements, pair, rule):
+    """HouseError for two named members that are not joined."""
+    one, other = sorted(pair) if len(pair) == 2 else 2 * sorted(pair)
+    gap = min(separation(a.solid, b.solid) for a in elements for b in elements
+              if a is not b and one in _names(a) and other in _names(b))
+    fail(rule.at("between"), "frame.joints", f"{' and '.join(rule['between'])} have no common face; they are"
+         f" {1e3 * gap:.3g} mm apart, or touch by an edge: let an end lie flush on the other member, or state a gap")
 
 
 def _end_face(a, name, contact):
@@ -81,6 +107,7 @@ def near_pairs(elements, margin):
 
 def _joint(a, b, contact, values):
     polygon, normal, area = contact
+    values["kind"] = values["kind"] or f"{a.kind}_{b.kind}"
     points = spring_points(polygon, normal)
     if values.pop("at") == "centre":  # one spring: no rotational stiffness
         points = points.mean(0)[None]

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Schema of a house file: every key, its unit and its admissible range. SI units, lengths in m."""
-from .limits import MAX_LINES, MAX_NAME
-from .schema import REQUIRED, Choice, Flag, ListOf, MapOf, Number, Pair, Record, Text, Variants
+from .limits import MAX_ELEMENTS, MAX_LINES, MAX_NAME
+from .schema import REQUIRED, Choice, Either, Flag, ListOf, MapOf, Number, Pair, Record, Text, Variants
 
 SIDES = ("north", "south", "east", "west")
-KINDS = ("foundation", "sill", "column", "beam", "floor", "brace", "roof", "snow", "ground")
+KINDS = ("foundation", "sill", "column", "beam", "rafter", "floor", "brace", "roof", "snow", "ground")
+FRAME = "frame"
+"""Key of the frame, and its name among the structures."""
 MIN_SNOW, MAX_SNOW = 1e-3, 6.0
 """Range of the depth of snow, which may also be 0. [m]"""
 MAX_WOOD = 1400.0
@@ -135,6 +137,34 @@ joint_rule = Record({"between": ListOf(ListOf(Choice(KINDS), scalar=True, most=l
                      "number": Number("fittings", 1, 100, whole=True, default=1),
                      "share": Number("", 0.01, 1.0, default=1.0),
                      "strength": Number("N", 100.0, infinite=True, default=None)})
+_coordinate = Number("m", -500, 500)
+point = ListOf(_coordinate, 3)
+_place = Number("m", -500, 500, default=None)
+_offset = Number("m", -500, 500, default=0.0)
+end = Either(point, Record({"of": word(), "end": Choice(("from", "to"), "from"), "at": _offset,
+                            "offset": ListOf(_coordinate, 3, default=(0.0, 0.0, 0.0)), "flush": Flag(True)}))
+cut = Record({"normal": ListOf(Number("", -1000, 1000), 3, default=None), "point": ListOf(_coordinate, 3, default=None),
+              "x": _place, "y": _place, "z": _place, "by": word(None)}, one_of=("normal", "x", "y", "z", "by"))
+repeat = ListOf(Record({"by": ListOf(_coordinate, 3, default=None), "turn": Number("degrees", -360, 360, default=None),
+                        "mirror": Choice(("x", "y"), None), "count": Number("", 2, 200, whole=True, default=2),
+                        "about": ListOf(_coordinate, 2, default=(0.0, 0.0)), "at": _offset},
+                       one_of=("by", "turn", "mirror")), scalar=True, most=5, default=())
+_parts = {"material": word("timber"), "fixed": Flag(False), "repeat": repeat}
+member = Record({"from": end, "to": end, "section": ListOf(length(0.005, 5.0), 2, default=None),
+                 "profile": ListOf(ListOf(Number("m", -3, 3), 2), least=3, most=12, default=None),
+                 "roll": Number("degrees", -360, 360, default=0.0), "kind": Choice(KINDS[:-2], "beam"),
+                 "cuts": ListOf(cut, most=20, default=()), **_parts}, one_of=("section", "profile"))
+plate = Record({"corners": ListOf(point, least=3, most=12, default=None), "over": ListOf(word(), 2, default=None),
+                "overhang": length(high=5.0, default=0.0, open_low=False), "thickness": length(0.001, 2.0),
+                "kind": Choice(KINDS[:-2], "floor"), "snow": Flag(True), **_parts}, one_of=("corners", "over"))
+named_joint = Record({"between": ListOf(word(), 2), "type": word(), "kind": word(None),
+                      "number": Number("fittings", 1, 100, whole=True, default=1),
+                      "share": Number("", 0.01, 1.0, default=1.0),
+                      "strength": Number("N", 100.0, infinite=True, default=None),
+                      "gap": length(high=0.1, default=0.0, open_low=False)})
+frame = Record({"members": MapOf(member, most=MAX_ELEMENTS), "plates": MapOf(plate, default={}),
+                "storeys": ListOf(ListOf(_coordinate, 2), most=MAX_STOREYS, default=()),
+                "joints": ListOf(named_joint, default=()), "loads": loads}, default=None)
 _broken = Record({"count": Number("joints", 1, 10000, whole=True), "end": Choice(("top", "bottom"), None)},
                  default=None)
 damage_region = Record({"structure": word(None), "side": Choice(SIDES), "storey": storey, "column_beam": _broken,
@@ -157,7 +187,8 @@ HOUSE = Record({
                    "hertz": Choice(("closed", "increment"), "closed"),
                    "bearing": Number("Pa", 1e5, 1e9, off=True, default=6e6)}, default={}),
     "ground": Record({"size": length(1.0, 1000.0), "thickness": length(0.05, 100.0), "material": word("timber")}),
-    "structures": MapOf(structure),
+    "structures": MapOf(structure, default={}),
+    FRAME: frame,
     "loads": loads,
     "joint_types": MapOf(joint_type),
     "wall_types": MapOf(wall_type, default={}),
@@ -165,7 +196,8 @@ HOUSE = Record({
     "diagnosis": diagnosis,
     "joints": MapOf(joint_rule),
     "joint_search": Record({"plane_tolerance": Number("m", 0.0, 1e-3, True, default=1e-6),
-                            "min_area": Number("m2", 0.0, 1.0, default=1e-3)}, default={}),
+                            "min_area": Number("m2", 0.0, 1.0, default=1e-3),
+                            "gap": length(high=0.1, default=0.0, open_low=False)}, default={}),
     "damage": Record({"end": Choice(("top", "bottom"), "bottom"), "plate": Choice(("whole", "beam"), "whole"),
                       "regions": ListOf(damage_region, most=MAX_REGIONS, default=())}, default={}),
     "snow": Record({"material": word("snow"), "depth": Number("m", 0.0, MAX_SNOW, default=0.0)}, default={}),

@@ -8,8 +8,9 @@ from .errors import HouseError
 from .limits import MAX_FILE_SIZE, MAX_FILES, MAX_NODES
 from .parser import Items, Table, parse_table
 
-COMMON = ("base", "paper", "plated")
-"""Shipped files that houses extend: materials and joints; frame of the paper's houses; joints with metal plates."""
+COMMON = ("base", "paper", "plated", "frame")
+"""Shipped files that houses extend: materials and joints; frame of the paper's houses; joints with metal plates; joints
+of frames of single members."""
 SUFFIXES = (".yaml", ".yml")
 """Of house files that another file names."""
 ADDS = "+"

@@ -44,35 +44,27 @@ def _hang_walls(structure, members, load, earlier):
     """
     columns = {column.name: column for column in members if column.kind == "column"}
     added = dict.fromkeys(columns, 0.0)
-    for storey in structure.storeys:
-        for nodes, side in outer_bays(structure, storey):
-            if not any(_is_common(structure, other, storey, nodes, side) for other in earlier):
-                ends = [columns[f"{structure.name}.column{storey}.x{x:g}y{y:g}"] for x, y in nodes]
+    for storey, plan in structure.plans.items():
+        for places, side in outer_bays(plan):
+            if not any(_is_common(structure, other, storey, places, side) for other in earlier):
+                ends = [columns[plan.columns[place]] for place in places]
                 for column in ends:
-                    half = load * bay_length(*ends) * storey_height(structure, storey) / 2
+                    half = load * bay_length(*ends) * structure.heights[storey] / 2
                     added[column.name] += mass_of(half)
     for name, mass in added.items():
         if mass:
             columns[name].set_mass(columns[name].mass + mass)
 
 
-def _is_common(structure, other, storey, nodes, side):
+def _is_common(structure, other, storey, places, side):
     """Whether an outer bay lies against the floor of another structure at the middle of its height."""
-    layer = structure.storeys[storey]
-    beside = [k for k, its in other.storeys.items() if its.z0 <= (layer.z0 + layer.z1) / 2 <= its.z1]
-    clear = structure.table["margin"] + other.table["margin"] + 10 * ROUNDING
-    middle = np.mean([[structure.position(axis, node) for axis, node in zip("xy", pair)] for pair in nodes], axis=0)
-    return any(other.plans[k].has_floor(middle + clear * np.array(OUTWARD[side])) for k in beside)
+    middle = sum(structure.levels[storey]) / 2
+    beside = [k for k, (foot, head) in other.levels.items() if foot <= middle <= head]
+    clear = structure.margin + other.margin + 10 * ROUNDING
+    point = np.mean(places, axis=0) + clear * np.array(OUTWARD[side])
+    return any(other.plans[k].has_floor(point) for k in beside)
 
 
 def bay_length(low, high):
     """Horizontal distance between the axes of two columns. [m]"""
     return float(np.hypot(*(high.solid.centroid - low.solid.centroid)[:2]))
-
-
-def storey_height(structure, storey):
-    """From the foot of a storey's columns to that of the next storey, or to the roof. [m]"""
-    layer = structure.storeys[storey]
-    above = structure.layers[structure.layers.index(layer) + 1:]
-    top = next((other.z0 for other in above if other.kind in ("columns", "roof")), above[-1].z1 if above else layer.z1)
-    return top - layer.z0

@@ -16,7 +16,7 @@ class Element:
     """One rigid member. World frame: x east, y north, z up, origin on the ground at the south-west column."""
 
     name: str               # e.g. 'main.column1.x4y0'
-    kind: str               # foundation, sill, column, beam, floor, brace, roof, snow, ground
+    kind: str               # a key of layout.KINDS
     vertices: np.ndarray    # (n, 3) [m]
     material: str           # key of HouseModel.materials
     density: float          # mass over volume, with what it carries and without hollows [kg/m3]
@@ -26,6 +26,7 @@ class Element:
     section: tuple = ()  # (width, depth) [m] where the member has a section
     group: str = ""  # structure, e.g. 'main', 'entrance'
     source: str = ""  # file:line of its description
+    axis: np.ndarray | None = None  # (2, 3) ends of a member of a frame, as described [m]
 
     def __repr__(self):
         return f"<Element {self.name}: {self.kind}, {len(self.vertices)} corners>"

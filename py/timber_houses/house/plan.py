@@ -9,7 +9,6 @@ from itertools import product
 
 import numpy as np
 
-from .members import column_plan, nodes_on_line
 from .structure import ENDS
 
 ROUNDING = 1e-6
@@ -18,10 +17,12 @@ ROUNDING = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class FloorPlan:
-    """edges: positions (m + 1,), (n + 1,) of the lines between the cells; floor: (m, n) bool"""
+    """edges: positions (m + 1,), (n + 1,) of the lines between the cells; floor: (m, n) bool; columns: {(x, y) as
+    laid: name}"""
 
     edges: tuple
     floor: np.ndarray
+    columns: dict
 
     @property
     def area(self):
@@ -45,7 +46,7 @@ class FloorPlan:
 
     def moved(self, shift):
         """The plan of a leaning storey. shift: (2,) [m]"""
-        return FloorPlan(tuple(edges + by for edges, by in zip(self.edges, shift)), self.floor)
+        return FloorPlan(tuple(edges + by for edges, by in zip(self.edges, shift)), self.floor, self.columns)
 
     def has_floor(self, point):
         """Whether a point (2,) lies in a cell with floor."""
@@ -82,36 +83,26 @@ class FloorPlan:
         return sum(self.has_floor((x + i, y + j)) for i, j in product((-ROUNDING, ROUNDING), repeat=2)) == 1
 
 
-def plan_of(structure, storey):
-    """Plan of a storey of a Structure."""
-    nodes = list(column_plan(structure, storey))
-    columns = np.array([[structure.position(axis, n) for axis, n in zip("xy", node)] for node in nodes]).reshape(-1, 2)
-    slabs = [structure.area(area, beyond=-structure.table["margin"]) for layer in structure.layers
-             for area in _areas(layer) if layer.storey >= storey]
-    edges = tuple(_distinct([*columns[:, axis], *(corner[axis] for slab in slabs for corner in slab)])
+def floor_plan(columns, slabs):
+    """FloorPlan of a storey. columns: {(x, y): name}; slabs: [(low, high) corners (2,)] of those above it"""
+    places = np.array(list(columns)).reshape(-1, 2)
+    edges = tuple(_distinct([*places[:, axis], *(corner[axis] for slab in slabs for corner in slab)])
                   for axis in (0, 1))
-    floor = np.array([[_carried((x, y), columns) and _covered((x, y), slabs) for y in _middles(edges[1])]
+    floor = np.array([[_carried((x, y), places) and _covered((x, y), slabs) for y in _middles(edges[1])]
                       for x in _middles(edges[0])], bool)
-    return FloorPlan(edges, floor.reshape([max(0, len(e) - 1) for e in edges]))
+    return FloorPlan(edges, floor.reshape([max(0, len(e) - 1) for e in edges]), columns)
 
 
-def outer_bays(structure, storey):
-    """[((node, node), side)] of neighbouring columns in the outer walls of a storey, also of its re-entrant ones."""
-    columns, bays = column_plan(structure, storey), []
+def outer_bays(plan):
+    """[(((x, y), (x, y)), side)] of neighbouring columns in the outer walls of a storey, also of its re-entrant ones.
+    """
+    bays = []
     for axis, along in enumerate("xy"):
-        for at in sorted({node[1 - axis] for node in columns}):
-            row = list(nodes_on_line(columns, along, at))
+        for at in sorted({place[1 - axis] for place in plan.columns}):
+            row = sorted((place for place in plan.columns if place[1 - axis] == at), key=lambda place: place[axis])
             for low, high in zip(row, row[1:]):
-                nodes = tuple((node, at) if axis == 0 else (at, node) for node in (low, high))
-                bays += [(nodes, side) for side in structure.outer_sides(storey, along, at, low, high)]
+                bays += [((low, high), side) for side in plan.sides(along, at, low[axis], high[axis])]
     return bays
-
-
-def _areas(layer):
-    """Areas of the slabs of a layer; none of other layers than floors and roofs."""
-    if layer.kind == "floor":
-        return layer.table["areas"] or [None]
-    return [layer.table["area"]] if layer.kind == "roof" else []
 
 
 def _covered(point, slabs):

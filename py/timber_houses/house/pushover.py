@@ -94,7 +94,7 @@ def secant_periods(model, group, curves, drift):
         curve = [np.transpose(curves[storey, direction] or [(0.0, 0.0)]) for storey in storeys]
         shears = [1000 * np.interp(drift, drifts, forces, right=0.0) for drifts, forces in curve]
         widths = [np.mean([np.ptp(column.vertices[:, axis]) for column in model.of_kind("column", group=group)
-                           if column.storey == storey]) for storey in storeys]
+                           if column.storey == storey] or [0.0]) for storey in storeys]
         rocking = weights * (widths / heights - drift)
         stiffness = (shears + rocking) / (drift * heights)  # [N/m]
         periods[direction] = _lowest_period(stiffness, masses) if all(shears > abs(rocking)) else None

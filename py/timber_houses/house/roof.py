@@ -158,12 +158,14 @@ def lay_snow(structure, layer, depth, material):
 
 
 def carry_roofs(structure, elements, joints):
-    """Change and append joints, so that the walls bear the roofs' weight and no thrust: tie beams and posts."""
+    """JointSpecs of posts; changes those of ridges to tie beams: the walls bear the roofs' weight and no thrust."""
+    posts = []
     for layer in structure.layers:
         if layer.kind == "roof" and layer.table["type"] == "gable":
             _tie_slabs(structure, layer, joints)
         elif layer.kind == "roof" and layer.table["type"] == "mono":
-            joints += _posts(structure, layer, elements, joints)
+            posts += _posts(structure, layer, elements, joints)
+    return posts
 
 
 def _tie_slabs(structure, layer, joints):

@@ -159,6 +159,18 @@ class ListOf:
 
 
 @dataclass(frozen=True)
+class Either:
+    """A list, or a table."""
+
+    listed: ListOf
+    table: Any
+    default: object = REQUIRED
+
+    def check(self, value, where, name):
+        return (self.table if isinstance(value, Table) else self.listed).check(value, where, name)
+
+
+@dataclass(frozen=True)
 class MapOf:
     """A table whose keys the user chooses; every entry follows `item`. `most` limits their number."""
 

@@ -34,22 +34,24 @@ def floor_area(model, group, storey):
 
 def level_masses(model, group):
     """Masses of the levels of a structure from below, with snow. [kg]"""
-    members = [e for e in model.elements if e.group == group and not e.fixed]
-    return [sum(_share(e, storey) * e.mass for e in members) for storey in sorted(model.storey_levels[group])]
+    members, levels = [e for e in model.elements if e.group == group and not e.fixed], model.storey_levels[group]
+    return [sum(_share(e, storey, max(levels)) * e.mass for e in members) for storey in sorted(levels)]
 
 
 def _storeys(model, group):
     members = [e for e in model.elements if e.group == group and not e.fixed and e.kind != "snow"]
-    levels, carried = {}, 0.0
+    levels, carried, last = {}, 0.0, max(model.storey_levels[group])
     for storey in sorted(model.storey_levels[group], reverse=True):
-        level = weight_of(sum(_share(e, storey) * e.mass for e in members))
+        level = weight_of(sum(_share(e, storey, last) * e.mass for e in members))
         carried += level
         levels[str(storey)] = {"level_kn": round(level, 3), "carried_kn": round(carried, 3)}
     return dict(reversed(levels.items()))
 
 
-def _share(element, storey):
-    """Part of a member that belongs to the level at the top of a storey."""
+def _share(element, storey, last):
+    """Part of a member that belongs to the level at the top of a storey, that of the last one with all above it."""
+    if element.kind in HALVED and element.storey > last:
+        return 1.0 if storey == last else 0.0
     if element.kind in HALVED:
         return 0.5 if element.storey in (storey, storey + 1) else 0.0
     return 1.0 if element.storey == storey else 0.0

@@ -139,10 +139,11 @@ def draw_heights(ax, heights, scale):
 def draw_plan(ax, model):
     """First floor from above: grid lines, columns by section, braces, damaged joints. North is up."""
     columns = [e for e in model.of_kind("column") if e.storey == 1]
+    others = [] if columns else [e for e in model.elements if e.kind != "ground"]  # of a frame without columns
     for axis, line in enumerate((ax.axvline, ax.axhline)):
         for position in sorted({round(float(e.solid.centroid[axis]), 3) for e in columns}):
             line(position, color="#bbbbbb", lw=0.5, zorder=0)
-    for element in model.of_kind("sill") or model.of_kind("foundation"):
+    for element in others or model.of_kind("sill") or model.of_kind("foundation"):
         draw_outline(ax, element, facecolor="none", edgecolor="#999999", lw=0.5)
     for element in columns:
         draw_outline(ax, element, facecolor="black" if max(element.section) >= THICK else "white", edgecolor="black",
@@ -158,7 +159,7 @@ def draw_plan(ax, model):
     for grid in model.grids.values():
         number_nodes(ax, grid, next(iter(model.grids.values())))
     ax.set_title("Plan of the first storey, north up: columns, braces and walls", fontsize=9, loc="left")
-    finish_plan(ax, columns)
+    finish_plan(ax, columns or others)
 
 
 def number_nodes(ax, grid, main):
@@ -187,7 +188,7 @@ def draw_wall(ax, start, end, opened):
 
 
 def finish_plan(ax, columns):
-    """Dimensions between the centres of the outermost columns, limits, no frame."""
+    """Dimensions between the centres of the outermost columns, limits, no frame. columns: elements, at least one"""
     centres = np.array([e.solid.centroid[:2] for e in columns if e.group == columns[0].group])
     low, high = centres.min(0), centres.max(0)
     positions = np.array([e.solid.centroid[:2] for e in columns])

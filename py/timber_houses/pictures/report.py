@@ -234,9 +234,10 @@ def joint_name(name):
 
 def caveats(summary):
     per_area = summary.weight.per_floor_area_kn_m2
-    light = (f"The house without snow weighs {per_area:.1f} kN per m² of floor. Real houses with tiles, walls and live"
-             " load weigh 2.5 to 3 kN per m².")
-    return [*([light] if per_area is not None and per_area < LIGHT else []), *CAVEATS]
+    if per_area is None or per_area >= LIGHT:
+        return list(CAVEATS)
+    return [f"The house without snow weighs {per_area:.1f} kN per m² of floor. Real houses with tiles, walls and live"
+            " load weigh 2.5 to 3 kN per m².", *CAVEATS]
 
 
 def versions(summary):

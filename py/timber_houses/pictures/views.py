@@ -91,7 +91,7 @@ LEGEND_COLUMNS = 6
 LEGEND_PLACE = 0.14
 """Height of its lower end. [inch]"""
 LEGEND_KINDS = {"snow": "snow", "roof": "roof", "brace": "brace", "column": "column", "beam": "beam", "floor": "floor",
-                "foundation": "foundation"}
+                "rafter": "rafter", "foundation": "foundation"}
 
 
 def box_of(view, starts, later):

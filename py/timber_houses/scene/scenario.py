@@ -159,13 +159,17 @@ def attributes(joint):
             **{attribute(name): value for name, value in (values | law).items()}}
 
 
+LEVEL_KINDS = (("floor",), ("beam", "roof"), ("rafter",))
+"""Kinds of elements that mark a level: the first of these that it has."""
+
+
 def level_marks(model, structure):
-    """[(element, level)] of a structure; level k is the top of storey k: floors, else beams and roof."""
+    """[(element, level)] of a structure; level k is the top of storey k."""
     marks = []
     for storey in sorted(model.storey_levels[structure]):
-        floors, others = ([e for kind in kinds for e in model.of_kind(kind, group=structure) if e.storey == storey]
-                          for kinds in (("floor",), ("beam", "roof")))
-        marks += [(e, storey) for e in floors or others]
+        found = ([e for kind in kinds for e in model.of_kind(kind, group=structure) if e.storey == storey]
+                 for kinds in LEVEL_KINDS)
+        marks += [(e, storey) for e in next(filter(None, found), [])]
     return marks
 
 
@@ -184,8 +188,8 @@ def sampler(model, ids):
     groups = [[e for e, level in level_marks(model, structure) if level == storey]
               for structure, storeys in model.storey_levels.items() for storey in sorted(storeys)]
     levels, (main, storeys) = len(groups), next(iter(model.storey_levels.items()))
-    numbered = [(k, e) for k, group in enumerate(groups) for e in group]
-    numbered += [(levels + 2 * min(e.storey, max(storeys)) - (e.kind in STANDING), e) for e in model.elements
-                 if e.group == main and not e.fixed]
+    top, numbered = max(storeys), [(k, e) for k, group in enumerate(groups) for e in group]
+    numbered += [(levels + 2 * min(e.storey, top) - (e.kind in STANDING and e.storey <= top), e)
+                 for e in model.elements if e.group == main and not e.fixed]
     return yw.Sampler(bodies=[ids[e.name] for _, e in numbered], groups=[group for group, _ in numbered],
                       members=[ids[e.name] for e in sampled_columns(model)])
