@@ -146,6 +146,11 @@ constexpr double thresholdDrop = 0.25;
 /// heavy ones; smaller: accelerated sweeps, which visit all pairs, where a few more plain ones are enough.
 constexpr int plainSweeps = 500;
 
+/// Sweeps from which on the impulses of stiff joints go half of their way. [-] The force (2) of spring_step.hpp on a
+/// spring that yields need not increase with its stretch across the path: visits of the joint and of its neighbours may
+/// then alternate for ever, half steps do not. Larger: longer steps; smaller: slower convergence of stiff joints.
+constexpr int relaxedSweeps = 100;
+
 /// Accelerated sweeps before Newton's method is tried, and between two tries. [-] It takes as long as some 500 sweeps.
 /// 100: where friction has several solutions, it may find one that sweeps do not (a board of the stress set is thrown
 /// with 3.4 instead of 1.1 m/s); larger: longer steps.

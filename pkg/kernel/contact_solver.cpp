@@ -135,10 +135,10 @@ void ContactSolver::solvePair(SolverPair& pair, bool forwards)
 }
 
 /// One Gauss-Seidel visit of a joint.
-void ContactSolver::solveJoint(ModalConstraint& joint, double threshold)
+void ContactSolver::solveJoint(ModalConstraint& joint, double threshold, double share)
 {
 	PairVector velocity = changeOf(joint);
-	solveModes(joint, velocity, threshold);
+	solveModes(joint, velocity, threshold, share);
 	setChange(joint, velocity);
 }
 
@@ -205,8 +205,8 @@ bool ContactSolver::activateChanged(double threshold)
 
 /// A sweep over the active pairs, and over all joints once no pair changes: the impulses of dashpots vary little with
 /// those of contacts.
-/// Returns whether another sweep is needed.
-bool ContactSolver::sweepOnce(double threshold, bool forwards)
+/// share: of the changes of stiff joints [-]. Returns whether another sweep is needed.
+bool ContactSolver::sweepOnce(double threshold, bool forwards, double share)
 {
 	bool changed = false;
 	++sweepCount;
@@ -215,17 +215,17 @@ bool ContactSolver::sweepOnce(double threshold, bool forwards)
 		solvePair(pair, forwards);
 		changed = activateNeighbours(pair, threshold) || changed;
 	}
-	return changed || sweepJoints(threshold);
+	return changed || sweepJoints(threshold, 1, share);
 }
 
 /// Returns whether another sweep over the pairs is needed. applied: share of the threshold from which on changes are
-/// applied [-]
-bool ContactSolver::sweepJoints(double threshold, double applied)
+/// applied; share: of the changes of stiff joints [-]
+bool ContactSolver::sweepJoints(double threshold, double applied, double share)
 {
 	bool changed = false;
 	for (ModalConstraint& joint : joints) {
 		const double limit = threshold * joint.thresholdShare;
-		solveJoint(joint, applied * limit * double(joint.count));
+		solveJoint(joint, applied * limit * double(joint.count), share);
 		changed = activateNeighbours(joint, limit) || changed;
 	}
 	return changed;
@@ -380,8 +380,9 @@ Convergence ContactSolver::sweepToConvergence(double tolerance)
 	changed = changed || sweepJoints(threshold);
 	Convergence result { 1, true, 0 };
 	while (changed && result.sweeps < std::min(maxSweeps, plainSweeps)) {
-		changed = sweepOnce(threshold, result.sweeps % 2 == 0);
-		if (changed && result.sweeps % jointInterval == 0) sweepJoints(threshold);
+		const double share = result.sweeps < relaxedSweeps ? 1 : 0.5;
+		changed = sweepOnce(threshold, result.sweeps % 2 == 0, share);
+		if (changed && result.sweeps % jointInterval == 0) sweepJoints(threshold, 1, share);
 		++result.sweeps;
 		if (changed) continue;
 		// The impulses of the warm start may have been much larger

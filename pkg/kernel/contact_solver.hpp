@@ -178,7 +178,7 @@ private:
 	void startBody(int k);
 	void finishBodies();
 	void warmStart(const SolverPair& pair);
-	void solveJoint(ModalConstraint& joint, double threshold);
+	void solveJoint(ModalConstraint& joint, double threshold, double share = 1);
 	template <class Connection> PairVector changeOf(const Connection& c) const
 	{
 		return PairVector::of(weighted[c.bodyA].change, weighted[c.bodyB].change);
@@ -196,8 +196,8 @@ private:
 	double squaredThreshold(double tolerance, double firstChanges) const;
 	bool activateChanged(double threshold);
 	template <class Connection> bool activateNeighbours(const Connection& c, double threshold);
-	bool sweepOnce(double threshold, bool forwards);
-	bool sweepJoints(double threshold, double applied = 1);
+	bool sweepOnce(double threshold, bool forwards, double share);
+	bool sweepJoints(double threshold, double applied = 1, double share = 1);
 	double largestChange() const;
 	void applyRestitution(const SolverPair& pair);
 	bool returnsTooMuch() const;

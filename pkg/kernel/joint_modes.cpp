@@ -87,14 +87,10 @@ namespace {
 	{
 		const Vec3 linear = axes.linear.col(k), angularA = rootA.weightedTorque<double>(axes.onA.col(k)),
 		           angularB = rootB.weightedTorque<double>(axes.onB.col(k));
-		double a[6], b[6];
-		for (int i = 0; i < 3; ++i) {
-			a[i] = -rootA.linear * linear[i];
-			a[3 + i] = -angularA[i];
-			b[i] = rootB.linear * linear[i];
-			b[3 + i] = angularB[i];
-		}
-		return PairVector::of(a, b);
+		const Vec3 a = -rootA.linear * linear, b = rootB.linear * linear;
+		using Quad = PairVector::Quad; // no array of numbers, from which the processor loads vectors late
+		return { { Quad { a[0], a[1], a[2], -angularA[0] }, Quad { -angularA[1], -angularA[2], b[0], b[1] },
+			Quad { b[2], angularB[0], angularB[1], angularB[2] } } };
 	}
 
 	[[gnu::always_inline]] inline void apply(const ModalConstraint& c, PairVector& change, const Vec6& q)
@@ -204,11 +200,11 @@ namespace {
 	}
 }
 
-void solveModes(ModalConstraint& c, PairVector& velocity, double threshold)
+void solveModes(ModalConstraint& c, PairVector& velocity, double threshold, double share)
 {
 	const Vec6 now = modalNow(c, velocity);
 	const Vec6 q = c.springs.empty() ? dashpotImpulse(c, now) : c.springs.impulse(c.step(), now - c.impulse, now),
-	           change = q - c.impulse;
+	           change = (c.springs.empty() ? 1 : share) * (q - c.impulse);
 	c.squaredChange = change.squaredNorm();
 	if (c.squaredChange <= threshold) return;
 	c.impulse += change;

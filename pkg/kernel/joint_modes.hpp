@@ -131,6 +131,7 @@ double dashpotPower(const SolverBody& a, const SolverBody& b, const JointModes& 
 
 /// A joint's modes in a step.
 struct ModalConstraint {
+	ModalConstraint() { } // numbers are not set: zeros take 2 % of a step of a house with walls
 	int bodyA, bodyB;
 	PairVector rows[2][3]; ///< of J R (contact_solver.hpp), three modes each
 	Vec6 velocity; ///< Z^T u_0
@@ -163,8 +164,9 @@ void addSprings(ModalConstraint& constraint, SpringSteps springs);
 /// Applies the impulse of a stiff joint's last forces. change: dW of (8), contact_solver.hpp, in-out.
 void warmStart(const ModalConstraint& constraint, PairVector& change);
 
-/// One Gauss-Seidel visit: (3), or (3) of spring_step.hpp. A squared change of at most `threshold` [J] is not applied.
-void solveModes(ModalConstraint& constraint, PairVector& change, double threshold);
+/// One Gauss-Seidel visit: (3), or (3) of spring_step.hpp. A squared change of at most `threshold` [J] is not applied, of
+/// a stiff joint a share of it.
+void solveModes(ModalConstraint& constraint, PairVector& change, double threshold, double share = 1);
 
 /// Impulse of the modes as a function of eta'. after: eta' [kg^1/2 m/s].
 struct ModalLaw {

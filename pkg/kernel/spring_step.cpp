@@ -35,6 +35,16 @@ namespace {
 		return tangent;
 	}
 
+	/// M^-1 r with M = 1 + x + h2/2 G^T T G of a single spring with the tangent T: Woodbury's formula, matrices 3 x 3.
+	Vec6 singleSpringStep(const SpringStep& spring, const Mat3& tangent, const ModalStep& step, const Vec6& r)
+	{
+		const Vec6 inverse = (1 + step.decay.array()).inverse();
+		const Mat36 weighted = spring.rates * inverse.asDiagonal();
+		const Mat3 T = step.h * step.h / 2 * tangent,
+		           matrix = Mat3::Identity() + T * (weighted * spring.rates.transpose());
+		return inverse.cwiseProduct(r) - weighted.transpose() * (matrix.inverse() * (T * (weighted * r)));
+	}
+
 } // namespace
 
 SpringSteps::SpringSteps(std::unique_ptr<SpringLaw> l, std::vector<SpringStep> steps, double stored, double h)
@@ -114,18 +124,23 @@ Vec6 SpringSteps::residual(const ModalStep& step, const Vec6& free, const Vec6& 
 	return r;
 }
 
+/// Tangent of the force (2) of a spring by z1. kappa: of SpringLaw::limit()
+Mat3 SpringSteps::tangentOf(size_t i, double kappa) const
+{
+	// With a shared strength the slope along one spring's way depends on the other springs
+	if (kappa > 0) return states[i].tangent / 2;
+	const SpringStep& s = springs[i];
+	return meanTangent(states[i], s.force, s.stretch - s.from, law->keepsForce ? 0 : -law->steepestFall());
+}
+
 /// Of r by eta'.
 Mat6 SpringSteps::slope(const ModalStep& step, double kappa) const
 {
 	Mat6 matrix = Mat6::Zero();
 	Vec6 together = Vec6::Zero();
-	const double least = law->keepsForce ? 0 : -law->steepestFall();
 	for (size_t i = 0; i < springs.size(); ++i) {
 		const SpringStep& s = springs[i];
-		// With a shared strength the slope along one spring's way depends on the other springs
-		const Mat3 tangent = kappa > 0 ? Mat3(states[i].tangent / 2)
-		                               : meanTangent(states[i], s.force, s.stretch - s.from, least);
-		matrix += s.rates.transpose() * tangent * s.rates;
+		matrix += s.rates.transpose() * tangentOf(i, kappa) * s.rates;
 		if (kappa > 0) together += s.rates.transpose() * shared[i];
 	}
 	matrix = step.h * step.h / 2 * (matrix - kappa / 2 * together * together.transpose());
@@ -149,14 +164,22 @@ bool SpringSteps::followLastSlope(const ModalStep& step, const Vec6& free, Vec6&
 	return hasSlope;
 }
 
+/// M^-1 r with the slope M of (3).
+Vec6 SpringSteps::newtonStep(const ModalStep& step, const NewtonPoint& point)
+{
+	if (springs.size() == 1 && !law->isLinear())
+		return singleSpringStep(springs[0], tangentOf(0, point.kappa), step, point.residual);
+	const Eigen::LDLT<Mat6> factors(slope(step, point.kappa));
+	hasSlope = law->isLinear();
+	if (hasSlope) inverseSlope = factors.solve(Mat6::Identity());
+	return factors.solve(point.residual);
+}
+
 /// A Newton step from `after`, shortened until r falls. Returns whether it does.
 bool SpringSteps::improve(const ModalStep& step, const Vec6& free, Vec6& after, NewtonPoint& point)
 {
 	if (hasSlope && followLastSlope(step, free, after, point)) return true;
-	const Eigen::LDLT<Mat6> factors(slope(step, point.kappa));
-	hasSlope = law->isLinear();
-	if (hasSlope) inverseSlope = factors.solve(Mat6::Identity());
-	const Vec6 change = factors.solve(point.residual), last = after;
+	const Vec6 change = newtonStep(step, point), last = after;
 	for (double share = 1; share > springLeastShare; share /= 2) {
 		after = last - share * change;
 		const double kappa = tryStretches(step.h, after);

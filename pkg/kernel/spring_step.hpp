@@ -77,7 +77,9 @@ class SpringSteps {
 
 	double tryStretches(double h, const Vec6& after);
 	Vec6 residual(const ModalStep& step, const Vec6& free, const Vec6& after) const;
+	Mat3 tangentOf(size_t spring, double kappa) const;
 	Mat6 slope(const ModalStep& step, double kappa) const;
+	Vec6 newtonStep(const ModalStep& step, const NewtonPoint& point);
 	bool followLastSlope(const ModalStep& step, const Vec6& free, Vec6& after, NewtonPoint& point);
 	bool improve(const ModalStep& step, const Vec6& free, Vec6& after, NewtonPoint& point);
 	Vec6 withinAccount(const ModalStep& step, const Vec6& free, const Vec6& impulse) const;

@@ -5,7 +5,9 @@ import math
 import pytest
 import yade.wrapper as yw
 import yade_timber as yt
+from timber_houses.motion import default_motion
 from timber_houses.run.summary import CREATED
+from timber_houses.scene import scenario
 from yade_timber.plugin import compiled
 from yade_timber.scene import queries
 from yade_timber.scene.engines import find_engine
@@ -162,3 +164,14 @@ def test_yielding_springs_of_a_struck_body(dt):
     # Explicit springs, which stretch by 0.06 to 1.7 times their elastic limit a step, create up to 1e-2 of it
     assert abs(yt.energy_residual()) < 1e-4 * energy["imposed_velocity"]
     assert abs(largest / stretch - 1) < 80 * dt  # stretches of placements, the largest lies between them
+
+
+@pytest.mark.rare
+def test_yielding_joints_of_a_house_converge():
+    """Strong shaking of tiled_house: visits of a joint that yields and of its neighbours do not alternate for ever."""
+    scenario.build(scenario.Scenario("walls", "tiled_house", default_motion(), options={"skip_rest": 0}))
+    find_engine(yw.GroundMotionEngine).start = -17.0
+    O.run(round(2.5 / O.dt), True)
+    forces = find_engine(yw.ContactForces)
+    assert find_engine(yw.JointEngine).yielded > 100 and forces.unconverged == 0
+    assert forces.sweepsMax < 500  # 106
