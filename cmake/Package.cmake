@@ -36,7 +36,7 @@ set(CPACK_DEBIAN_HOUSES_PACKAGE_ARCHITECTURE all)
 set(CPACK_COMPONENT_HOUSES_DESCRIPTION
   "Timber-frame houses under earthquakes and snow, in YADE\nHouse files, ground motions, runs and pictures, with the command yade-timber.")
 set(CPACK_DEBIAN_HOUSES_PACKAGE_DEPENDS
-  "yade-timber (= ${PROJECT_VERSION}), python3-numpy, python3-scipy, python3-h5py, python3-jinja2, python3-matplotlib, python3-pil, python3-moderngl, libegl1, libgl1-mesa-dri, python3-yaml, python3-tqdm")
+  "yade-timber (= ${PROJECT_VERSION}), python3-numpy, python3-scipy, python3-h5py, python3-jinja2, python3-matplotlib, python3-pil, python3-moderngl, libegl1, libgl1-mesa-dri, python3-yaml, python3-lxml, python3-tqdm")
 set(CPACK_DEBIAN_HOUSES_PACKAGE_RECOMMENDS "python3-vtk9, ffmpeg, fonts-ipafont-gothic") # yade-timber vtk and film, Japanese names
 set(CPACK_DEBIAN_HOUSES_PACKAGE_CONTROL_EXTRA ${CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA})
 

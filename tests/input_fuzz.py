@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Damaged house files, towns, records, tables and motion options for hypothesis, and the check that each is used or
-refused in one line.
+"""Damaged house files, frames from CAD, towns, records, tables and motion options for hypothesis, and the check that
+each is used or refused in one line.
 """
 
 import argparse
 import copy
+import re
 import resource
 import signal
 import sys
@@ -19,6 +20,7 @@ from hypothesis import strategies as st
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "py"))
 
+from btlx_sample import portal
 from timber_houses.base.errors import InputError
 from timber_houses.house import build_house, load_house, load_town
 from timber_houses.house.town import check_places
@@ -276,6 +278,20 @@ def _numbers(node):
 
 
 house_files = varied_trees() | damaged_trees() | damaged_texts([SHED, FRAME]) | st.binary(max_size=200)
+
+
+@st.composite
+def varied_btlx(draw):
+    """The portal with some numbers replaced."""
+    text = portal()
+    for _ in range(draw(st.integers(1, 4))):
+        number = draw(st.sampled_from(list(re.finditer(r"-?\d+\.\d+", text))))
+        value = draw(SIZES) * draw(st.sampled_from([1, -1, 100, 1e3])) if draw(st.booleans()) else float(number[0])
+        text = text[:number.start()] + repr(value * draw(st.floats(0.9, 1.1))) + text[number.end():]
+    return text.encode()
+
+
+btlx_files = varied_btlx() | damaged_texts([portal()]) | st.binary(max_size=200)
 record_files = damaged_texts(record_texts()) | st.binary(max_size=200)
 
 TOWNS = {
@@ -350,11 +366,16 @@ class _Parser(argparse.ArgumentParser):
         raise _Stopped(message)
 
 
-def use_house(folder, content):
+def use_house(folder, content, name="house.yaml"):
     """Load and build a house file; None or the message of refusal."""
-    path = folder / "house.yaml"
+    path = folder / name
     path.write_bytes(content)
     return _refusal(lambda: build_house(load_house(path)))
+
+
+def use_btlx(folder, content):
+    """The same of a frame from CAD."""
+    return use_house(folder, content, "frame.btlx")
 
 
 def use_record(folder, content, name="record.txt"):
@@ -441,6 +462,6 @@ def _refusal(use):
     return message
 
 
-KINDS = {"houses": (house_files, use_house), "records": (record_files, use_record), "towns": (town_files, use_town),
-         "tables": (table_files, use_table), "options": (motion_options, use_options)}
+KINDS = {"houses": (house_files, use_house), "btlx": (btlx_files, use_btlx), "records": (record_files, use_record),
+         "towns": (town_files, use_town), "tables": (table_files, use_table), "options": (motion_options, use_options)}
 """{name: (examples, use(folder, example))}"""

@@ -6,12 +6,14 @@ weight: show_house.py C2 [--snow 1.0] [--out house.png] [--draw-only].
 Without YADE the check is left out.
 """
 import json
+from pathlib import Path
 
 from show_common import Parser, errors_in_a_line, file_name, path
 
+from timber_houses.base.atomic_write import write_text
 from timber_houses.base.errors import RunError
 from timber_houses.base.notes import noted
-from timber_houses.house import build_house, diagnose, load_house, shipped_houses, weigh
+from timber_houses.house import btlx_text, build_house, diagnose, load_house, shipped_houses, weigh
 from timber_houses.pictures import drawings, pushover
 from timber_houses.pictures.figures import save, stem_and_endings
 from timber_houses.study.own_weight import check_own_weight
@@ -19,7 +21,8 @@ from timber_houses.study.own_weight import check_own_weight
 
 def arguments():
     parser = Parser(description=__doc__)
-    parser.add_argument("house", help=f"{', '.join(shipped_houses())} or a YAML file")
+    parser.add_argument("house", help=f"{', '.join(shipped_houses())}, a house file or a BTLx file")
+    parser.add_argument("--yaml", type=path, help="write what is read of a BTLx file as a house file, and end")
     parser.add_argument("--snow", type=float, default=None, help="snow depth [m] (default: that of the house)")
     parser.add_argument("--out", type=path, help="picture to write, .png or .pdf (default: house_<name>.png)")
     parser.add_argument("--draw-only", action="store_true", help="leave the check out, which takes some seconds")
@@ -34,8 +37,20 @@ def pushovers(path, structures):
             for written in save(figure, stem.with_name(f"{stem.name}_pushover_{name}"), endings)]
 
 
+def write_yaml(house, target):
+    """Write the frame of a BTLx file as a house file."""
+    with noted():
+        text = btlx_text(Path(house))
+    write_text(target, f"# Read from {Path(house).name}\n{text}")
+    print(f"written: {target}")
+
+
 def main():
     options = arguments()
+    if options.yaml:
+        with errors_in_a_line(options.yaml):
+            write_yaml(options.house, options.yaml)
+        return
     with errors_in_a_line(options.out or "the picture"):
         with noted():
             model = build_house(load_house(options.house), options.snow)

@@ -1,7 +1,7 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""10 000 damaged house files, towns, records, tables and motion options each (YADE_TIMBER_FUZZ sets another number),
-with new random numbers in each run.
+"""10 000 damaged house files, frames from CAD, towns, records, tables and motion options each (YADE_TIMBER_FUZZ sets
+another number), with new random numbers in each run.
 
 Printed are the numbers of examples used and refused, and the longest processor time of one example.
 """

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import yaml
 import yade_timber as yt
+from btlx_sample import portal
 from yade import O
 from timber_houses.base.time_step import MAX_DT
 from timber_houses.run.observer import Observer, cause_of
@@ -48,6 +49,16 @@ def test_the_examples_stand_still(house, snow):
     assert sum(map(len, observed.fresh)) > 30
     assert max(observed.judge.main.peak) < 1e-3 and broken() == 0
     assert yt.energy()["kinetic"] < 1.0
+
+
+def test_a_frame_from_cad_stands_still(tmp_path):
+    """A braced portal of 3 m: largest drift 7e-6."""
+    path = tmp_path / "portal.btlx"
+    path.write_text(portal())
+    observed = stand(path, 0.4)
+    assert sum(map(len, observed.fresh)) > 30
+    assert max(observed.judge.main.peak) < 1e-4 and broken() == 0
+    assert yt.energy()["kinetic"] < 1e-2
 
 
 @pytest.mark.parametrize("pitch", [0.35, 0.9])

@@ -16,7 +16,7 @@ class House:
     ----------
     name : str or Path
         Name of a shipped house (``"A"``, ``"B"``, ``"C"``, ``"B1"``, ``"B2"``, ``"C1"``, ``"C2"``, ``"l_house"``,
-        ``"storehouse"``, ``"tiled_house"``), or path of a YAML file.
+        ``"storehouse"``, ``"tiled_house"``), or path of a YAML or BTLx file.
 
     Raises
     ------

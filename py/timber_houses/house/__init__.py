@@ -11,6 +11,7 @@ from .check import check_house, overlaps
 from .description import Description, load_house, shipped_houses
 from .diagnosis import comparison, diagnose
 from .errors import HouseError
+from .loader import btlx_text
 from .model import Element, HouseModel, JointSpec
 from .overlay import changed_house
 from .town import Lot, Town, load_town
@@ -18,5 +19,5 @@ from .wall_types import LEVELS, has_rated_walls
 from .weight import weigh
 
 __all__ = ["BayName", "Description", "Element", "HouseError", "HouseModel", "JointSpec", "LEVELS", "Lot", "Town",
-           "build_house", "changed_house", "check_house", "comparison", "diagnose", "free_bays", "free_wall_bays",
-           "has_rated_walls", "load_house", "load_town", "overlaps", "shipped_houses", "weigh"]
+           "btlx_text", "build_house", "changed_house", "check_house", "comparison", "diagnose", "free_bays",
+           "free_wall_bays", "has_rated_walls", "load_house", "load_town", "overlaps", "shipped_houses", "weigh"]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Schema of a house file: every key, its unit and its admissible range. SI units, lengths in m."""
-from .limits import MAX_ELEMENTS, MAX_LINES, MAX_NAME
+from .limits import MAX_ELEMENTS, MAX_LINES, MAX_NAME, MAX_PAIRS
 from .schema import REQUIRED, Choice, Either, Flag, ListOf, MapOf, Number, Pair, Record, Text, Variants
 
 SIDES = ("north", "south", "east", "west")
@@ -164,7 +164,7 @@ named_joint = Record({"between": ListOf(word(), 2), "type": word(), "kind": word
                       "gap": length(high=0.1, default=0.0, open_low=False)})
 frame = Record({"members": MapOf(member, most=MAX_ELEMENTS), "plates": MapOf(plate, default={}),
                 "storeys": ListOf(ListOf(_coordinate, 2), most=MAX_STOREYS, default=()),
-                "joints": ListOf(named_joint, default=()), "loads": loads}, default=None)
+                "joints": ListOf(named_joint, most=MAX_PAIRS, default=()), "loads": loads}, default=None)
 _broken = Record({"count": Number("joints", 1, 10000, whole=True), "end": Choice(("top", "bottom"), None)},
                  default=None)
 damage_region = Record({"structure": word(None), "side": Choice(SIDES), "storey": storey, "column_beam": _broken,

@@ -4,14 +4,16 @@ import warnings
 from pathlib import Path
 
 from ..base.input_file import is_file, read_bytes, shown
+from . import btlx
 from .errors import HouseError
 from .limits import MAX_FILE_SIZE, MAX_FILES, MAX_NODES
-from .parser import Items, Table, parse_table
+from .parser import Items, Table, house_text, parse_table, plain
 
-COMMON = ("base", "paper", "plated", "frame")
+COMMON = ("base", "paper", "plated", "frame", "cad")
 """Shipped files that houses extend: materials and joints; frame of the paper's houses; joints with metal plates; joints
-of frames of single members."""
-SUFFIXES = (".yaml", ".yml")
+of frames of single members, and from CAD."""
+BTLX = ".btlx"
+SUFFIXES = (".yaml", ".yml", BTLX)
 """Of house files that another file names."""
 ADDS = "+"
 """Ending of a key whose list is added to the inherited one."""
@@ -27,15 +29,15 @@ def load_table(path):
 
 
 _known_chains: dict = {}
-"""{house file: [(file, text)] of its chain}: studies ask for the same chains thousands of times."""
+"""{house file: [(file, content)] of its chain}: studies ask for the same chains thousands of times."""
 
 
 def house_files(path):
     """The files that a house file consists of: itself, then the files that it extends. Raises HouseError."""
     path = Path(path)
     chain = _known_chains.get(path)
-    if chain is None or any(not is_file(file) or text_of(file) != text for file, text in chain):
-        chain = _known_chains[path] = [(file, text_of(file)) for file, _ in _chain(path)]
+    if chain is None or any(not is_file(file) or _content(file) != known for file, known in chain):
+        chain = _known_chains[path] = [(file, _content(file)) for file, _ in _chain(path)]
     return [file for file, _ in chain]
 
 
@@ -49,18 +51,41 @@ def _chain(path):
                              f" {' -> '.join(file.name for file in files)}; remove one 'extends'")
         if len(links) == MAX_FILES:
             raise HouseError(f"{where}: extends: a chain of more than {MAX_FILES} files; merge some of them")
-        table, nodes = parse_table(text_of(path), path.name, nodes_left)
+        table, nodes = _table(path, nodes_left)
         links.append((path, table))
         nodes_left, where = nodes_left - nodes, table.at("extends")
         path = _extended(path, table)
     return links
 
 
+def _table(path, nodes_left):
+    """(Table, number of YAML values) of one file."""
+    if _is_btlx(path):
+        return btlx.btlx_table(_content(path), path.name), 0
+    return parse_table(text_of(path), path.name, nodes_left)
+
+
+def btlx_text(path):
+    """YAML of a house file of what is read of a BTLx file. Raises HouseError."""
+    if not _is_btlx(path):
+        raise HouseError(f"{shown(str(path))}: is no BTLx file; its name must end in {BTLX}")
+    return house_text(plain(_table(path, 0)[0]), in_lines=True)
+
+
+def _is_btlx(path):
+    return path.suffix.lower() == BTLX
+
+
 def text_of(path):
     try:
-        return read_bytes(path, MAX_FILE_SIZE).decode("utf-8")
+        return _content(path).decode("utf-8")
     except UnicodeDecodeError:
         raise HouseError(f"{path}: cannot be read: not UTF-8 text; save it as UTF-8") from None
+
+
+def _content(path):
+    try:
+        return read_bytes(path, btlx.MAX_FILE_SIZE if _is_btlx(path) else MAX_FILE_SIZE)
     except OSError as problem:
         raise HouseError(f"{path}: cannot be read: {problem.strerror}") from None
 

@@ -8,7 +8,7 @@ from .description import checked, house_path
 from .errors import HouseError
 from .limits import MAX_DEPTH
 from .loader import ADDS, added, load_table, note_replaced
-from .parser import Items, Table, parse_value
+from .parser import Items, Table, parse_value, plain
 from .schema import NAME
 
 _STEP = re.compile(rf"({NAME})((?:\[\d{{1,6}}\])*)")
@@ -49,13 +49,6 @@ def changed_house(name_or_path, settings=(), braces=(), strength=1.0, where="{}"
     checked(data, path)
     _strengthen(data, strength, where("strength"))
     return plain(data)
-
-
-def plain(value):
-    """Tables and lists as dict and list."""
-    if isinstance(value, dict):
-        return {key: plain(entry) for key, entry in value.items()}
-    return [plain(entry) for entry in value] if isinstance(value, list) else value
 
 
 # --- single keys ------------------------------------------------------------------------------------------------------

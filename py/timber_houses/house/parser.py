@@ -201,6 +201,13 @@ class _Writer(yaml.SafeDumper):
 _Writer.add_implicit_resolver(TAG + "float", _EXPONENT, list("-+.0123456789"))
 
 
-def house_text(data):
-    """YAML of the content of a house file."""
-    return yaml.dump(data, Dumper=_Writer, sort_keys=False)
+def plain(value):
+    """Tables and lists as dict and list."""
+    if isinstance(value, dict):
+        return {key: plain(entry) for key, entry in value.items()}
+    return [plain(entry) for entry in value] if isinstance(value, list) else value
+
+
+def house_text(data, in_lines=False):
+    """YAML of the content of a house file. in_lines: a line for each innermost table or list"""
+    return yaml.dump(data, Dumper=_Writer, sort_keys=False, width=110, default_flow_style=None if in_lines else False)

@@ -102,6 +102,7 @@ class Summary:
     ensemble: Ensemble | None = optional()
     column_drift: ColumnDrifts | None = optional()
     rest_s: float | None = None
+    description: str = ""
 
     @classmethod
     def read(cls, folder):

@@ -50,7 +50,8 @@ class RunOptions(MotionRequest):
     name: of a run whose script gives BY_SCRIPT, or of a lot; town: its file; ground_motion: in place of a record.
     """
 
-    house: str = option(str, f"house file, or a shipped house: {', '.join(shipped_houses())}", "HOUSE", group="main")
+    house: str = option(str, f"house or BTLx file, or a shipped house: {', '.join(shipped_houses())}", "HOUSE",
+                        group="main")
     quake: bool = option(bool, "with the default earthquake", group="main")
     snow: float = option(float, "snow on the roofs [m] (default: the house file's)", "DEPTH", 0, MAX_SNOW, group="main")
     walls: str = option(str, f"strength of walls given by a multiplier: {' or '.join(LEVELS)}", "LEVEL",

@@ -46,6 +46,7 @@ def summary(scenario, observed, samples, tables, wall_s, made_from, cut_off=None
               else energy_balance(last_energies(history), _finite(created)))
     draft = Summary(
         scenario=scenario.name, lot=scenario.lot, model=model.name,
+        description=model.description,
         earthquake=scenario.motion is not None, snow=scenario.snow_depth > 0,
         snow_depth_m=scenario.snow_depth, snow_mass_kg=model.counts()["mass_snow"], weight=decode(Weight, weigh(model)),
         diagnosis=decode(Diagnosis, {**diagnose(model), "disagreement": ""}), joint_damping=scenario.joint_damping,
