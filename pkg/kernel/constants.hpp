@@ -260,6 +260,9 @@ constexpr double stiffPhase = 1;
 /// Share of it below which a stiff joint's springs are explicit again. [-] Modes change by some per cent as bodies turn.
 constexpr double softPhase = 0.8;
 
+/// Relative rounding of the stretches and forces of a backbone. [-] Larger: steeper lines than the stiffness are accepted.
+constexpr double backboneRounding = 1e-9;
+
 /// Change of a yielding spring's stretch in a step, over that at its strength with the initial stiffness, up to which
 /// explicit springs may cross a corner of the law. [-] They err by up to a quarter of its square of the energy at the
 /// strength. Larger: energy from nothing.

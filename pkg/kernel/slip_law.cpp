@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "slip_law.hpp"
+#include "constants.hpp"
 #include "preconditions.hpp"
 #include <cassert>
 
 namespace timber {
 
 namespace {
-	/// Relative rounding of the stretches and forces of a backbone. [-]
-	constexpr double rounding = 1e-9;
 
 	/// Tangent stiffness of a spring along its stretch of length r, over k; 0 where its force falls. [-]
 	/// before, after: histories before and after the update to this stretch
@@ -33,7 +32,7 @@ const char* SlipLaw::unmetBy(double stiffness, const std::vector<BackbonePoint>&
 		if (!(point.stretch > last.stretch)) return "of ascending stretches > 0";
 		if (&point == &points.back() ? point.force != 0 : !(point.force > 0))
 			return "of forces > 0, the last one 0";
-		if (point.force - last.force > (1 + rounding) * stiffness * (point.stretch - last.stretch))
+		if (point.force - last.force > (1 + backboneRounding) * stiffness * (point.stretch - last.stretch))
 			return "nowhere steeper than kn";
 		last = point;
 	}
@@ -49,7 +48,7 @@ SlipLaw::SlipLaw(double k, double phi, const std::vector<BackbonePoint>& points)
 	for (const BackbonePoint& point : points) {
 		const Knot& last = knots.back();
 		const double slack = point.stretch - point.force / k, growth = slack - last.slack;
-		Knot next { point.stretch, growth > rounding * point.stretch ? slack : last.slack, 0 };
+		Knot next { point.stretch, growth > backboneRounding * point.stretch ? slack : last.slack, 0 };
 		next.limitIntegral = last.limitIntegral + (last.limit() + next.limit()) / 2 * (next.slack - last.slack);
 		knots.push_back(next);
 	}

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "wall_law.hpp"
+#include "constants.hpp"
 #include "portable_math.hpp"
 #include "slip_law.hpp"
 #include <algorithm>
@@ -10,8 +11,6 @@
 namespace timber {
 
 namespace {
-	/// Relative rounding of the stretches and forces of a backbone. [-]
-	constexpr double rounding = 1e-9;
 	/// Of d_2, up to which a spring is elastic. [-] (SAWS)
 	constexpr double elasticRange = 1.05;
 	constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -25,7 +24,7 @@ namespace {
 			if (!(point.stretch > last.stretch)) return "of ascending stretches > 0";
 			if (!(point.force > 0 || (point.force == 0 && &point == &points.back())))
 				return "of forces > 0, the last one >= 0";
-			if (point.force - last.force > (1 + rounding) * k * (point.stretch - last.stretch))
+			if (point.force - last.force > (1 + backboneRounding) * k * (point.stretch - last.stretch))
 				return "nowhere steeper than kn";
 			last = point;
 		}
