@@ -16,6 +16,7 @@ the changes of MODEL_CHANGES: a house file has neither P-delta nor the radius of
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import zip_longest
 from pathlib import Path
 
 import numpy as np
@@ -33,6 +34,7 @@ from timber_houses.base.atomic_write import write_text
 from timber_houses.base.errors import RunError
 from timber_houses.base.table import csv_text
 from timber_houses.house import LEVELS, build_house, changed_house, load_house
+from timber_houses.house.layout import SAWS_STATES
 from timber_houses.house.parser import house_text
 from timber_houses.house.walls import SHARE
 from timber_houses.house.weight import floor_area
@@ -43,7 +45,9 @@ UNIT = 1960.0
 """Allowable shear of a wall of multiplier 1. [N/m]"""
 CLOSED = {"law": "slip", "kn": 1e8, "ks": 1e8, "strength": 2e7, "friction_share": 0.0, "softening_stretch": 0.4,
           "ultimate_stretch": 0.5}
-"""Fitting that neither opens nor yields below 20 MN; it clamps the column, too. [N, m]"""
+"""Fitting that neither opens nor yields below 20 MN; at the corners of a column it clamps it, too. [N, m]"""
+NONE = CLOSED | {"kn": 1e6, "ks": 1e6, "strength": 100.0}
+"""Fitting without strength: friction alone holds the ends. [N, m]"""
 SIDED, LINED = 0.31, 0.14
 """Weight of outer walls with siding of 0.17, and without: gypsum board 0.09 (l_house.yaml), plywood of 9 mm 0.05.
 [kN/m2]"""
@@ -106,7 +110,7 @@ def slip_walls(data):
     """The law slip, with slack up to the largest drift of either side, for all walls."""
     for table in data["wall_types"].values():
         table |= {"friction_share": 0.2}
-        for key in ("friction_force", "reload_share", "reload_target", "residual_share"):
+        for key in (*SAWS_STATES, "residual_share"):
             table.pop(key, None)
 
 
@@ -120,6 +124,14 @@ def symmetric_walls(data):
     south, west = ([line for line in windows if line["along"] == axis] for axis in "xy")
     pairs = [{**line, "at": [0, 7]} for line in south] + [{**line, "at": [0, 8]} for line in west if line["at"] == 0]
     table["walls"] = outer + pairs + inner
+
+
+def axis_fittings(values):
+    """Column ends with one fitting at the column's axis, without rotational stiffness."""
+    def change(data):
+        data["joint_types"]["hold_down"].update(values)
+        data["joints"]["column_ends"].update(type="hold_down", number=1)
+    return Change(change)
 
 
 def no_p_delta(storey):
@@ -144,6 +156,9 @@ CHANGES = {
     "law slip": Change(slip_walls),
     "symmetric walls": Change(plan=symmetric_walls),
     "column ends closed": Change(lambda data: data["joint_types"].update(corner_fitting=CLOSED)),
+    "hold-downs": axis_fittings({}),
+    "hold-downs closed": axis_fittings(CLOSED),
+    "hold-downs none": axis_fittings(NONE),
     "no P-delta": Change(storey=no_p_delta),
     "sharp columns": Change(storey=sharp_columns),
 }
@@ -309,7 +324,7 @@ def main():
     runs = {case: tasks(path, shaking, given.seeds, given.out) if case.has_runs else []
             for case, path in files.items()}
     if not given.only_done:
-        run_missing([task for each in runs.values() for task in each], given.jobs)
+        run_missing([task for each in zip_longest(*runs.values()) for task in each if task], given.jobs)
     rows = rows_of(given, runs, files, motion)
     if not rows:
         raise RunError(f"{given.out}: no run of these rows is done")
