@@ -130,14 +130,15 @@ def test_loop_of_a_wall():
 
 
 def test_published_cycles():
-    """SAWS set of OpenSees' example, kN and mm: second cycles of 10, 20, 40 mm by OpenSees, energy and largest force."""
+    """SAWS set of OpenSees' example, kN and mm; second cycles by OpenSees: energy and force at the amplitude."""
     f0, fi, du, s0, r1, r2, r4, alpha, beta = 8, 1.2, 15, 5, 0.058, -0.05, 0.02, 0.6, 1.1
     rise = du * np.linspace(0, 1, 1001)[1:]**2
     points = [(d, (f0 + r1 * s0 * d) * (1 - np.exp(-s0 * d / f0))) for d in rise]
-    spring = WallSpring(s0, [*points, (du - points[-1][1] / (r2 * s0), 0.0)], fi, 0.0, beta, r4 * s0, (s0, f0 / s0, alpha))
+    points.append((du - points[-1][1] / (r2 * s0), 0.0))
+    spring = WallSpring(s0, points, fi, 0.0, beta, r4 * s0, (s0, f0 / s0, alpha))
     for amplitude, energy, force in ((10, 65.6, 9.606), (20, 114.1, 8.524), (40, 190.8, 5.200)):
-        turn = np.concatenate([[1], np.linspace(1, -1, 2001), np.linspace(-1, 0, 1001)[1:]])
-        path = amplitude * np.concatenate([np.linspace(0, 1, 1001), turn[1:]])
+        turns = np.linspace(0, 1, 1001), np.linspace(1, -1, 2001), np.linspace(-1, 0, 1001)
+        path = amplitude * np.concatenate(turns)
         for drift in path:
             spring.shear(drift)
         forces = np.array([spring.shear(drift) for drift in path])
