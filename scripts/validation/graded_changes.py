@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What decides whether the graded houses stand: single changes of the model, one table.
 
-    scripts/validation/graded_changes.py --record PREFIX_OF_JMA_KOBE --start 6 --end 20 [--seeds N]
+    scripts/validation/graded_changes.py --record PREFIX_OF_JMA_KOBE --start 6 --end 20 [--runs N]
         [--changes 'default,siding,siding + damping 2 %,...'] [--grades 1,1.25,1.5] [--levels design,mean]
         [--only-done] [--runs-alone] [--to DIR]
 
 Houses, tests and motion: graded_houses.py. Each row of the table is a change, or several joined by " + ", a grade and a
-level of the walls. The same command continues runs that were stopped; further changes, grades and seeds add to them.
+level of the walls. Its runs have the motion times 1, 0.99, 1.01, 0.98, ...: disturbances of 1e-9 m change neither
+outcomes nor drifts. The same command continues runs that were stopped; further changes, grades and runs add to them.
 finishes: sum of the largest shears of finishes in storey 1 over the code's wall quantity, the smaller of both
 directions. Drifts of storey 1 are medians over the runs, of the centre and of the column that drifts most; 1 for a run
 that collapses. model: the same of the lumped-mass model (shear_model.py), 1 where the storey passes 1/10. It alone has
@@ -16,6 +17,7 @@ the changes of MODEL_CHANGES: a house file has neither P-delta nor the radius of
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import zip_longest
 from pathlib import Path
 
 import numpy as np
@@ -23,7 +25,7 @@ import numpy as np
 sys.path.append(str(Path(__file__).resolve().parents[2] / "py"))  # after the installed package, which the runs use
 
 import house_storeys
-from graded_houses import TEST, add_motion_options, before_failure, motion_of, tasks
+from graded_houses import TEST, add_motion_options, before_failure, motion_of
 from house_storeys import AXES, shear_storeys, wall_joints
 from shear_model import Storey, response
 from wall_grades import HOUSE, REQUIRED, STRUCTURE, graded_house, listed
@@ -33,20 +35,26 @@ from timber_houses.base.atomic_write import write_text
 from timber_houses.base.errors import RunError
 from timber_houses.base.table import csv_text
 from timber_houses.house import LEVELS, build_house, changed_house, load_house
+from timber_houses.house.layout import SAWS_STATES
 from timber_houses.house.parser import house_text
 from timber_houses.house.walls import SHARE
 from timber_houses.house.weight import floor_area
-from timber_houses.study.driver import run_missing
+from timber_houses.run.options import RunOptions
+from timber_houses.study.driver import Task, run_missing
 from timber_houses.study.options import Parser, add_driver_options, count, results_folder, run_script, selected
 
 UNIT = 1960.0
 """Allowable shear of a wall of multiplier 1. [N/m]"""
 CLOSED = {"law": "slip", "kn": 1e8, "ks": 1e8, "strength": 2e7, "friction_share": 0.0, "softening_stretch": 0.4,
           "ultimate_stretch": 0.5}
-"""Fitting that neither opens nor yields below 20 MN; it clamps the column, too. [N, m]"""
+"""Fitting that neither opens nor yields below 20 MN; at the corners of a column it clamps it, too. [N, m]"""
+NONE = CLOSED | {"kn": 1e6, "ks": 1e6, "strength": 100.0}
+"""Fitting without strength: friction alone holds the ends. [N, m]"""
 SIDED, LINED = 0.31, 0.14
 """Weight of outer walls with siding of 0.17, and without: gypsum board 0.09 (l_house.yaml), plywood of 9 mm 0.05.
 [kN/m2]"""
+STEP = 0.01
+"""Of the factors on the motion. [-]"""
 SHARP = 0.02
 """Radius of a column's edges over its width, in place of house_storeys.ROUNDING. [-]"""
 
@@ -106,7 +114,7 @@ def slip_walls(data):
     """The law slip, with slack up to the largest drift of either side, for all walls."""
     for table in data["wall_types"].values():
         table |= {"friction_share": 0.2}
-        for key in ("friction_force", "reload_share", "reload_target", "residual_share"):
+        for key in (*SAWS_STATES, "residual_share"):
             table.pop(key, None)
 
 
@@ -120,6 +128,14 @@ def symmetric_walls(data):
     south, west = ([line for line in windows if line["along"] == axis] for axis in "xy")
     pairs = [{**line, "at": [0, 7]} for line in south] + [{**line, "at": [0, 8]} for line in west if line["at"] == 0]
     table["walls"] = outer + pairs + inner
+
+
+def axis_fittings(values):
+    """Column ends with one fitting at the column's axis, without rotational stiffness."""
+    def change(data):
+        data["joint_types"]["hold_down"].update(values)
+        data["joints"]["column_ends"].update(type="hold_down", number=1)
+    return Change(change)
 
 
 def no_p_delta(storey):
@@ -144,6 +160,9 @@ CHANGES = {
     "law slip": Change(slip_walls),
     "symmetric walls": Change(plan=symmetric_walls),
     "column ends closed": Change(lambda data: data["joint_types"].update(corner_fitting=CLOSED)),
+    "hold-downs": axis_fittings({}),
+    "hold-downs closed": axis_fittings(CLOSED),
+    "hold-downs none": axis_fittings(NONE),
     "no P-delta": Change(storey=no_p_delta),
     "sharp columns": Change(storey=sharp_columns),
 }
@@ -225,6 +244,18 @@ def finish_ratio(path):
                for axis in AXES)
 
 
+def tasks(path, shaking, number, folder):
+    """Runs of a house. shaking: options of the motion"""
+    return [Task(folder / path.stem / f"{k + 1:03d}",
+                 RunOptions(house=str(path.resolve()), until_collapse=True, no_frames=True,
+                            **shaking | {"scale": factor(k) * shaking["scale"]})) for k in range(number)]
+
+
+def factor(k):
+    """On the motion, of run k from 0 on: 1, 0.99, 1.01, 0.98, ... [-]"""
+    return round(1 + (-1)**k * STEP * ((k + 1) // 2), 9)
+
+
 def row(case, path, window, results):
     """Of the table; results: of runs that ended well."""
     data, summaries = load_house(path).data, [result.summary for result in results]
@@ -286,7 +317,7 @@ def parsed():
     options = Parser(__doc__)
     add_driver_options(options, Path("results/graded_changes"))
     add_motion_options(options)
-    options.add_argument("--seeds", type=count, default=1, metavar="N", help="runs of each house (default %(default)s)")
+    options.add_argument("--runs", type=count, default=1, metavar="N", help="of each row (default %(default)s)")
     options.add_argument("--rule", choices=("law", "label"), default="law", help="wall quantity (graded_houses.py)")
     options.add_argument("--changes", default=",".join(SHIPPED),
                          help=f"default: {', '.join(SHIPPED)}; known: {', '.join(CHANGES)}".replace("%", "%%"))
@@ -306,10 +337,10 @@ def main():
         folder.mkdir(parents=True, exist_ok=True)
     motion, shaking = motion_of(given, given.out)
     files = {case: case.house_file(given.out, given.rule) for case in cases_of(given)}
-    runs = {case: tasks(path, shaking, given.seeds, given.out) if case.has_runs else []
+    runs = {case: tasks(path, shaking, given.runs, given.out) if case.has_runs else []
             for case, path in files.items()}
     if not given.only_done:
-        run_missing([task for each in runs.values() for task in each], given.jobs)
+        run_missing([task for each in zip_longest(*runs.values()) for task in each if task], given.jobs)
     rows = rows_of(given, runs, files, motion)
     if not rows:
         raise RunError(f"{given.out}: no run of these rows is done")

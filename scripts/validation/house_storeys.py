@@ -6,6 +6,7 @@ from wall_spring import WallSpring
 
 from timber_houses.base.gravity import mass_of
 from timber_houses.base.joint_kinds import WALL_BEAM
+from timber_houses.house.model import WallCycles
 from timber_houses.house.walls import SHARE
 from timber_houses.house.weight import weigh
 
@@ -41,23 +42,32 @@ def wall_springs(model, storey, direction, height):
     sums = {}
     for j in wall_joints(model, storey, direction):
         stretches, forces = np.transpose(j.envelope)
-        friction = j.cycles.friction_force if j.law == "wall" else 0.0
-        lines = (j.cycles.reload_share, j.cycles.reload_target) if j.law == "wall" else j.friction_share
-        form = j.law, lines, round(friction / max(forces), 9), tuple(np.round(stretches / height, 9))
-        sums[form] = sums.get(form, 0.0) + np.array([j.kn * height, friction, *forces]) / SHARE
-    return [_spring(*form[:2], form[3], *values) for form, values in sums.items()]
+        cycles = j.cycles if j.law == "wall" else WallCycles(0.0)
+        lines = ((cycles.reload_share, cycles.reload_target, cycles.reload_stretch / height, cycles.reload_power)
+                 if j.law == "wall" else j.friction_share)
+        values = np.array([j.kn * height, cycles.friction_force, cycles.pinched_stiffness * height,
+                           cycles.reload_stiffness * height, *forces]) / SHARE
+        form = j.law, lines, tuple(np.round(values[1:4] / max(values[4:]), 9)), tuple(np.round(stretches / height, 9))
+        sums[form] = sums.get(form, 0.0) + values
+    return [_spring(law, lines, drifts, *values) for (law, lines, _, drifts), values in sums.items()]
 
 
-def _spring(law, lines, drifts, stiffness, friction, *forces):
+def _spring(law, lines, drifts, stiffness, friction, pinched, reload_stiffness, *forces):
     points = list(zip(drifts, forces))
-    return WallSpring(stiffness, points, friction, *lines) if law == "wall" else SlipSpring(stiffness, lines, points)
+    if law != "wall":
+        return SlipSpring(stiffness, lines, points)
+    share, target, *reload = lines
+    return WallSpring(stiffness, points, friction, share, target, pinched,
+                      (reload_stiffness, *reload) if reload_stiffness else None)
 
 
 def column_ends(data, columns, width, height):
     """SlipSpring of all column ends of a storey; columns of this width [m]."""
     rule = data["joints"]["column_ends"]
-    fitting, lever = data["joint_types"][rule["type"]], (1 - ROUNDING) * width
-    many = columns * rule["number"] * lever / height
+    fitting = data["joint_types"][rule["type"]]
+    at_axis = fitting.get("at") == "centre"  # all of it stretches at either end, not half
+    lever = ((0.5 if at_axis else 1) - ROUNDING) * width
+    many = columns * rule["number"] * (2 if at_axis else 1) * lever / height
     return slip_spring(stiffness=many * fitting["kn"] * lever, strength=many * fitting["strength"],
                        friction_share=fitting["friction_share"], softening=fitting["softening_stretch"] / lever,
                        ultimate=fitting["ultimate_stretch"] / lever)

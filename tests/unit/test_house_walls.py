@@ -179,6 +179,11 @@ def test_cycles_of_a_type(tmp_path):
     own, = sheets(house(tmp_path, ONE, types))
     assert (own.cycles.friction_force, own.cycles.reload_share, own.cycles.reload_target) == (
         pytest.approx(300 * part), 0.5, 1.0)
+    types = "{a: {envelope: [[0.01, 5000], [0.1, 0]], pinched_share: 0.02, reload_drift: 1e-4, reload_power: 0.3}}"
+    sloped, = sheets(house(tmp_path, ONE, types))
+    assert (sloped.cycles.pinched_stiffness, sloped.cycles.reload_stiffness) == (
+        pytest.approx(0.02 * sloped.kn), pytest.approx(sloped.kn))
+    assert (sloped.cycles.reload_stretch, sloped.cycles.reload_power) == (pytest.approx(1e-4 * 2.73), 0.3)
     slip, = sheets(house(tmp_path, ONE, "{a: {multiplier: 1, friction_share: 0.2}}"))
     assert (slip.law, slip.friction_share, slip.cycles) == ("slip", 0.2, None)
 
@@ -315,6 +320,14 @@ MISTAKES = {
     "two laws": ("{along: y, at: 8, from: 0, to: 1, type: a}",
                  "{a: {multiplier: 1, friction_share: 0.2, reload_share: 0.5}}",
                  ["wall_types.a.reload_share", "does not go with friction_share"]),
+    "half of reloading": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {multiplier: 1, reload_power: 0.5}}",
+                          ["wall_types.a", "reload_drift and reload_power go together"]),
+    "reloading twice": ("{along: y, at: 8, from: 0, to: 1, type: a}",
+                        "{a: {multiplier: 1, reload_power: 0.5, reload_drift: 0.001, reload_share: 0.5}}",
+                        ["wall_types.a.reload_share", "does not go with reload_power"]),
+    "pinched line too steep": ("{along: y, at: 8, from: 0, to: 1, type: a}",
+                               "{a: {envelope: [[0.01, 5000], [0.1, 0]], pinched_share: 0.9}}",
+                               ["wall_types.a.pinched_share", "below the largest shear"]),
     "residual of slip": (
         "{along: y, at: 8, from: 0, to: 1, type: a}",
         "{a: {multiplier: 1, friction_share: 0.2, residual_share: 0.3}}", [

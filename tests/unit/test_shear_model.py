@@ -129,6 +129,23 @@ def test_loop_of_a_wall():
     assert np.trapz(forces[-8001:], path[-8001:]) == pytest.approx(2 * half, rel=1e-5)
 
 
+def test_published_cycles():
+    """SAWS set of OpenSees' example, kN and mm; second cycles by OpenSees: energy and force at the amplitude."""
+    f0, fi, du, s0, r1, r2, r4, alpha, beta = 8, 1.2, 15, 5, 0.058, -0.05, 0.02, 0.6, 1.1
+    rise = du * np.linspace(0, 1, 1001)[1:]**2
+    points = [(d, (f0 + r1 * s0 * d) * (1 - np.exp(-s0 * d / f0))) for d in rise]
+    points.append((du - points[-1][1] / (r2 * s0), 0.0))
+    spring = WallSpring(s0, points, fi, 0.0, beta, r4 * s0, (s0, f0 / s0, alpha))
+    for amplitude, energy, force in ((10, 65.6, 9.606), (20, 114.1, 8.524), (40, 190.8, 5.200)):
+        turns = np.linspace(0, 1, 1001), np.linspace(1, -1, 2001), np.linspace(-1, 0, 1001)
+        path = amplitude * np.concatenate(turns)
+        for drift in path:
+            spring.shear(drift)
+        forces = np.array([spring.shear(drift) for drift in path])
+        assert forces[1000] == pytest.approx(force, abs=0.002)
+        assert np.trapz(forces, path) == pytest.approx(energy, rel=5e-3)
+
+
 # --- graded houses ----------------------------------------------------------------------------------------------------
 
 
@@ -191,6 +208,10 @@ def test_column_ends_by_hand():
     assert spring.stiffness == pytest.approx(2 * 1e6 * 0.09**2 / 2.5)
     assert spring.forces.max() == pytest.approx(2 * 5e3 * 0.09 / 2.5)
     assert spring.drifts[2:] == pytest.approx([0.01 / 0.09, 0.04 / 0.09])
+    data["joint_types"]["f"]["at"] = "centre"  # levers of 0.04 m, the whole fitting at either end
+    spring = column_ends(data, 1, 0.1, 2.5)
+    assert spring.stiffness == pytest.approx(2 * 2 * 1e6 * 0.04**2 / 2.5)
+    assert spring.forces.max() == pytest.approx(2 * 2 * 5e3 * 0.04 / 2.5)
 
 
 def test_peaks_count_until_a_storey_fails():

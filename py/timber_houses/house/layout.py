@@ -120,14 +120,17 @@ saws = Record({"F0": Number("N", 100.0, 1e7), "FI": Number("N", 0.0, 1e7), "DU":
                "S0": Number("N/m", 1e4, 1e9), "R1": Number("", 0.0, 1.0), "R2": Number("", -1.0, -1e-4),
                "R3": Number("", 1.0, 10.0), "R4": Number("", 0.0, 0.9), "alpha": Number("", 0.05, 2.0),
                "beta": Number("", 1.0, 2.0), "length": length(0.1, 20.0), "height": length(0.1, 20.0)}, default=None)
-SAWS_STATES = ("friction_force", "reload_share", "reload_target")
+SAWS_STATES = ("friction_force", "pinched_share", "reload_share", "reload_drift", "reload_power", "reload_target")
 """Keys of a wall type that follow from `saws`."""
 wall_type = Record({"multiplier": Number("", 0.0, 20.0, default=None),
                     "quasi_multiplier": Number("", 0.0, 20.0, default=None),
                     "strength": Number("N/m", 100.0, 1e6, default=None),
                     "stiffness": Number("N/m per rad", 1e4, 1e9, default=None), "envelope": envelope, "nails": nails,
                     "saws": saws, "friction_force": Number("N/m", 0.0, 1e5, default=None),
+                    "pinched_share": Number("", 0.0, 0.9, default=None),
                     "reload_share": Number("", 0.0, 1.0, default=None),
+                    "reload_drift": Number("rad", 1e-7, 0.5, default=None),
+                    "reload_power": Number("", 0.05, 2.0, default=None),
                     "reload_target": Number("", 1.0, 2.0, default=None),
                     "friction_share": Number("", 0.0, 1.0, default=None), "softening_drift": _drift,
                     "ultimate_drift": _drift, "residual_share": Number("", 0.0, 0.95, default=0.0),

@@ -178,14 +178,29 @@ def _check_cycles(table, path):
         if table["residual_share"]:
             fail(table.at("residual_share"), f"{path}.residual_share",
                  "does not go with friction_share, the law slip; remove one of them")
+    _check_reloading(table, path)
     for level in LEVELS:
-        largest = max(shear for _, shear in envelope(table, level))
+        points = envelope(table, level)
+        drift, largest = max(points, key=lambda point: point[1])
         if table["friction_force"] is not None and not table["friction_force"] < largest:
             fail(table.at("friction_force"), f"{path}.friction_force",
                  f"must be below the largest shear, {largest:.4g} N/m, got {table['friction_force']:g}")
         if table["friction_force"] and table["friction_force"] < LEAST_FRICTION * largest:
             fail(table.at("friction_force"), f"{path}.friction_force", f"{table['friction_force']:g} N/m is below"
                  f" {LEAST_FRICTION:g} of the largest shear, {largest:.4g} N/m; kN are 1000 N")
+        if table["pinched_share"]:
+            left = largest - cycles(table, level).friction_force
+            share = left / drift / steepest(points)
+            if not table["pinched_share"] < share:
+                fail(table.at("pinched_share"), f"{path}.pinched_share", "the pinched line must stay below the largest"
+                     f" shear: less than {share:.3g}, got {table['pinched_share']:g}")
+
+
+def _check_reloading(table, path):
+    if (table["reload_power"] is None) != (table["reload_drift"] is None):
+        fail(table.where, path, "reload_drift and reload_power go together; give both or none")
+    if table["reload_power"] is not None and table["reload_share"] is not None:
+        fail(table.at("reload_share"), f"{path}.reload_share", "does not go with reload_power; remove one of them")
 
 
 _CHECKS = {"envelope": _check_envelope, "nails": _check_nails, "saws": _check_saws}
@@ -228,11 +243,21 @@ def _with_residual(points, share):
 def cycles(table, level):
     if table["saws"] is not None:
         return Cycles(**saws.cycles(table["saws"]))
-    largest = max(shear for _, shear in envelope(table, level))
+    points = envelope(table, level)
     given = {key: default if table[key] is None else table[key]
-             for key, default in (("friction_force", FRICTION * largest), ("reload_share", RELOAD_SHARE),
-                                  ("reload_target", RELOAD_TARGET))}
+             for key, default in (("friction_force", FRICTION * max(shear for _, shear in points)),
+                                  ("reload_share", RELOAD_SHARE), ("reload_target", RELOAD_TARGET))}
+    if table["pinched_share"]:
+        given["pinched_stiffness"] = table["pinched_share"] * steepest(points)
+    if table["reload_power"] is not None:
+        given |= {"reload_share": 0.0, "reload_stiffness": steepest(points), "reload_drift": table["reload_drift"],
+                  "reload_power": table["reload_power"]}
     return Cycles(**given)
+
+
+def steepest(points):
+    """Slope of the steepest line of an envelope from the origin on. [force per drift or stretch]"""
+    return max(_slope(a, b) for a, b in zip([(0.0, 0.0), *points], points))
 
 
 def multiplier(table):

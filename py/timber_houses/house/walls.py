@@ -20,7 +20,7 @@ from .loads import bay_length
 from .members import column_plan, line_name, nodes_on_line, require_column
 from .model import JointSpec, Sheet, WallCycles
 from .structure import ACROSS
-from .wall_types import cycles, envelope, multiplier, quasi_multiplier
+from .wall_types import cycles, envelope, multiplier, quasi_multiplier, steepest
 
 SHARE = 0.5
 """Of a wall's shear, between beams and between columns. [-]"""
@@ -135,10 +135,9 @@ def _values(bay, table, level, lever, ratio):
     part = SHARE * bay.share(table) * bay.length * ratio
     points, cyclic = envelope(table, level), cycles(table, level)
     scaled = tuple((lever * drift, part * shear) for drift, shear in points)
-    slopes = [(f1 - f0) / (d1 - d0) for (d0, f0), (d1, f1) in zip(((0.0, 0.0), *scaled), scaled)]
     strength = max(force for _, force in scaled)
     softening = max(stretch for stretch, force in scaled if force == strength)
-    common = {"kn": cyclic.steepness * max(slopes), "strength": strength, "envelope": scaled,
+    common = {"kn": cyclic.steepness * steepest(scaled), "strength": strength, "envelope": scaled,
               "softening_stretch": softening, "ultimate_stretch": scaled[-1][0]}
     if table["friction_share"] is not None:
         return {**common, "law": "slip", "friction_share": table["friction_share"]}
