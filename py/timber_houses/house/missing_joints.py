@@ -21,11 +21,13 @@ def warn_of_missing_joints(model, data):
     do; and pairs with a joint to a common member, unless one of the two ends at the other's face and no common member
     lies between them.
     """
+    members = [e for e in model.elements if e.group == FRAME and e.kind != "snow"]
+    if not members:
+        return
     mates = {element.name: set() for element in model.elements}
     for joint in model.joints:
         mates[joint.a].add(joint.b)
         mates[joint.b].add(joint.a)
-    members = [e for e in model.elements if e.group == FRAME and e.kind != "snow"]
     ruled = {frozenset(kinds) for rule in data["joints"].values() if not rule["across"] for kinds in kinds_of(rule)}
     lines = [_line(a, b, ruled) for a, b in near_pairs(members, NEAR)
              if b.name not in mates[a.name] and not (a.fixed and b.fixed)
