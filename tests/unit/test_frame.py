@@ -234,7 +234,7 @@ def test_inherited_rules_and_types_change_by_name(tmp_path):
     ("from: [-0.2, 0, 3.1], to: [4.2, 0, 3.1]", "from: [-0.2, 0, 3.11], to: [4.2, 0, 3.11]",
      r"frame.post.1 \(.*own.yaml:7\) and frame.beam.1 \(.*:9\), gap of 10 mm: move them together"),
     ("sill, fixed: true,\n           repeat: {mirror: x, at: 2}}", "foundation, fixed: true,"
-     " repeat: {mirror: x, at: 2}}\n    across: {from: [-0.5, 2, 0.25], to: [4.5, 2, 0.25], section: [0.1, 0.1]}", None),
+     " repeat: {mirror: x, at: 2}}\n    across: {from: [-0.5, 2, 0.25], to: [5, 2, 0.25], section: [0.1, 0.1]}", None),
     ("    sill:", "    base: {from: [0, -0.2, -0.1], to: [0, 4.2, -0.1], section: [0.4, 0.2], kind: foundation, fixed:"
      " true}\n    lath: {from: [0.17, -0.2, 0.03], to: [0.17, 4.2, 0.03], section: [0.06, 0.06]}\n    sill:",
      r"frame.base .* and frame.lath .*, touching, no rule of 'joints' for foundation and beam"),

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Members of a frame that face each other without a joint: a warning, as they may be meant to."""
 import warnings
+from collections import defaultdict
 
 from .bars import OBLIQUE
 from .geometry import contact_polygon, separation
@@ -24,7 +25,7 @@ def warn_of_missing_joints(model, data):
     members = [e for e in model.elements if e.group == FRAME and e.kind != "snow"]
     if not members:
         return
-    mates = {element.name: set() for element in model.elements}
+    mates = defaultdict(set)
     for joint in model.joints:
         mates[joint.a].add(joint.b)
         mates[joint.b].add(joint.a)
