@@ -4,7 +4,7 @@ import warnings
 from collections import defaultdict
 
 from .bars import OBLIQUE
-from .geometry import contact_polygon, separation
+from .geometry import contact_polygon, facing_polygon, separation
 from .joint_values import kinds_of
 from .joints import near_pairs
 from .layout import FRAME
@@ -41,7 +41,7 @@ def warn_of_missing_joints(model, data):
 
 def _may_miss(a, b, common, ruled, min_area):
     """Whether two members face each other where a joint may be missing. common: elements that both are joined to"""
-    contact = contact_polygon(a.solid, b.solid, NEAR)
+    contact = contact_polygon(a.solid, b.solid, NEAR) or facing_polygon(a.solid, b.solid, NEAR)
     if not contact or contact[2] < min_area:
         return False
     if frozenset((a.kind, b.kind)) not in ruled and any(
@@ -75,6 +75,6 @@ def _contains(solid, point):
 def _line(a, b, ruled):
     gap = separation(a.solid, b.solid)
     apart = f"gap of {1e3 * gap:.3g} mm" if gap > TOUCHING else "touching"
-    remedy = (": move them together or give joint_search.gap" if frozenset((a.kind, b.kind)) in ruled
+    remedy = (": move them together or raise joint_search.gap" if frozenset((a.kind, b.kind)) in ruled
               else f", no rule of 'joints' for {a.kind} and {b.kind}")
     return f"{a.name} ({a.source}) and {b.name} ({b.source}), {apart}{remedy}"
