@@ -3,7 +3,9 @@
 """`frame` in house files: ends, sections, cuts, copies, plates, storeys, joints by rules, gaps and names, loads,
 damage; messages with file, line, member and remedy.
 """
+import re
 import sys
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +16,7 @@ sys.path.insert(0, str(ROOT / "py"))
 
 from timber_houses.base.gravity import weight_of
 from timber_houses.house import HouseError, build_house, changed_house, diagnose, load_house, weigh
+from timber_houses.house.missing_joints import warn_of_missing_joints
 
 PORTAL = """\
 extends: frame
@@ -171,6 +174,9 @@ def test_joints_by_gap_and_by_name(tmp_path):
     ("{of: post, at: 2}", "{of: knee, at: 2}", r"own.yaml:10: frame.members.knee.from.of: knee refers back to knee"),
     ("{of: post, at: 2}", "{of: roof, at: 2}", r"'roof' is a plate; name a member"),
     ("{of: post, at: 2}", "{of: beam, at: 1}", r"knee.from: the other end lies within or behind 'beam'; move"),
+    ("{of: beam, at: 1.2}", "{of: beam, at: 9.5}",
+     r"own.yaml:10: frame.members.knee.to.at: 9.5 lies beyond the end of beam \(4.4 m\); give a place on its axis"),
+    ("{of: beam, at: 1.2}", "{of: beam, at: -1}", r"own.yaml:10: .*knee.to.at: -1 lies beyond the end of beam"),
     ("to: {of: beam, at: 1.2}", "to: [0.9, 0, 3.1]",
      r"own.yaml:10: brace frame.knee.1 overlaps beam frame.beam.1 \(own.yaml:9\) by .* mm near .*; end one at the"),
     ("from: [0, 0, 0.2]", "from: [0, 0, 0.3]", r"own.yaml:7: column frame.post.1 stands on nothing at x 0.000"),
@@ -193,6 +199,8 @@ def test_mistakes(tmp_path, old, new, message):
 
 @pytest.mark.parametrize("line, message", [
     ("girt: {from: [1, 2, 2], to: [3, 2, 2], section: [0.1, 0.1]}", r"own.yaml:11: beam frame.girt is unsupported"),
+    ("girt: {from: [0.104, 0, 2], to: [1, 0, 2], section: [0.1, 0.1]}", r"own.yaml:11: beam frame.girt is unsupported"
+     r" near .*; column frame.post.1 \(.*own.yaml:7\) is 4 mm from it: move them together or give joint_search.gap"),
     ("star: {from: [1, 2, 2], to: [3, 2, 2], profile: [[0, 0], [1, 0], [0.1, 0.1], [0, 1]]}",
      r"own.yaml:11: frame.members.star.profile: is not a convex polygon"),
 ])
@@ -213,6 +221,38 @@ def test_changed_keys(tmp_path):
     assert data["frame"]["members"]["post"]["section"] == [0.3, 0.3]
 
 
+def test_inherited_rules_and_types_change_by_name(tmp_path):
+    model = built(tmp_path, more="joints: {column_ends: {number: 3}}\n"
+                  "joint_types: {corner_fitting: {damping_ratio: 0.05}}\n")
+    joints = [joint for joint in model.joints if joint.kind == "column_beam"]
+    usual = next(joint for joint in built(tmp_path).joints if joint.kind == "column_beam")
+    assert joints[0].strength == pytest.approx(1.5 * usual.strength)
+    assert {joint.damping_ratio for joint in joints} == {0.05} != {usual.damping_ratio}
+
+
+@pytest.mark.parametrize("old, new, message", [
+    ("from: [-0.2, 0, 3.1], to: [4.2, 0, 3.1]", "from: [-0.2, 0, 3.11], to: [4.2, 0, 3.11]",
+     r"frame.post.1 \(.*own.yaml:7\) and frame.beam.1 \(.*:9\), gap of 10 mm: move them together"),
+    ("sill, fixed: true,\n           repeat: {mirror: x, at: 2}}", "foundation, fixed: true,"
+     " repeat: {mirror: x, at: 2}}\n    across: {from: [-0.5, 2, 0.25], to: [5, 2, 0.25], section: [0.1, 0.1]}", None),
+    ("    sill:", "    base: {from: [0, -0.2, -0.1], to: [0, 4.2, -0.1], section: [0.4, 0.2], kind: foundation, fixed:"
+     " true}\n    lath: {from: [0.17, -0.2, 0.03], to: [0.17, 4.2, 0.03], section: [0.06, 0.06]}\n    sill:",
+     r"frame.base .* and frame.lath .*, touching, no rule of 'joints' for foundation and beam"),
+])
+def test_missing_joints_are_told(tmp_path, old, new, message):
+    assert old in PORTAL
+    text = PORTAL.replace(old, new)
+    model = built(tmp_path, text, check=False)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        warn_of_missing_joints(model, load_house(tmp_path / "own.yaml").data)
+    assert len(caught) == (message is not None)
+    if message:
+        assert re.search(message, str(caught[0].message))
+
+
 @pytest.mark.parametrize("name", ["barn", "bell_tower", "footbridge"])
 def test_shipped_frames(name):
+    """Without a warning of missing joints."""
+    warnings.simplefilter("error")
     assert build_house(load_house(name)).counts()["joints"] > 50

@@ -114,7 +114,11 @@ class Parts:
             return np.array(end)
         axis = self._bar_of(end["of"], end.at("of"), f"{self.path(name)}.{key}.of").axis
         start, far = axis if end["end"] == "from" else axis[::-1]
-        return start + end["at"] * (far - start) / np.linalg.norm(far - start) + end["offset"]
+        length = float(np.linalg.norm(far - start))
+        if not -SHORTEST <= end["at"] <= length + SHORTEST:
+            fail(end.at("at"), f"{self.path(name)}.{key}.at", f"{end['at']:g} lies beyond the end of {end['of']}"
+                 f" ({length:.4g} m); give a place on its axis, or an offset")
+        return start + end["at"] * (far - start) / length + end["offset"]
 
     def _bar_of(self, reference, where, path):
         part = self.find(reference, where, path)

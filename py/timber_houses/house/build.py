@@ -14,6 +14,7 @@ from .grid import Grid
 from .joints import find_joints
 from .layout import FRAME
 from .loads import apply_loads
+from .missing_joints import warn_of_missing_joints
 from .model import Element, HouseModel
 from .structure import OUTWARD, require_few
 from .wall_types import has_rated_walls
@@ -43,6 +44,7 @@ def build_house(description, snow_depth=None, check=True, wall_level=None):
     model.law["wall_level"] = level if has_rated_walls(data) else None
     if check:
         check_house(model)
+        warn_of_missing_joints(model, data)
     return model
 
 

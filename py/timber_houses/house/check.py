@@ -7,6 +7,7 @@ from .errors import HouseError
 from .geometry import contact_polygon, separation
 from .joint_values import END_JOINED
 from .joints import LYING, near_pairs
+from .missing_joints import NEAR
 
 TOUCH = 1e-7  # [m] overlaps up to this count as flush; rounding in the builder stays below 1e-9
 
@@ -111,7 +112,7 @@ def _check_supports(model, touching):
         todo += new
     loose = [element for element in model.elements if element.name not in supported]
     if loose:
-        _report_unsupported(min(loose, key=lambda element: element.solid.bounds[0][2]), len(loose) - 1)
+        _report_unsupported(model, min(loose, key=lambda element: element.solid.bounds[0][2]), len(loose) - 1)
 
 
 def _add_support(supports, a, b):
@@ -122,9 +123,22 @@ def _add_support(supports, a, b):
         supports[lower.name].add(upper.name)
 
 
-def _report_unsupported(element, others):
+def _report_unsupported(model, element, others):
     x, y, _ = element.solid.centroid
     more = f" (and {others} more elements)" if others else ""
     raise HouseError(f"{element.source}: {element.kind} {element.name} is unsupported near x {x:.3f}, y {y:.3f}, z"
                      f" {element.solid.bounds[0][2]:.3f} m: it lies on no element and has no joint; support it, join it"
-                     f" (a rule in 'joints') or remove it{more}")
+                     f" (a rule in 'joints') or remove it{more}{_close_by(model, element)}")
+
+
+def _close_by(model, element):
+    """Of a member of a frame: which other member is nearly at it, and the remedy; else empty."""
+    if element.axis is None:
+        return ""
+    gaps = [(separation(element.solid, other.solid), other) for other in model.elements if other is not element]
+    near = [row for row in gaps if TOUCH < row[0] <= NEAR]
+    if not near:
+        return ""
+    gap, other = min(near, key=lambda row: row[0])
+    return (f"; {other.kind} {other.name} ({other.source}) is {1e3 * gap:.3g} mm from it: move them together or give"
+            " joint_search.gap")
