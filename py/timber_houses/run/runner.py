@@ -160,9 +160,9 @@ class Run(Stoppable):
         """All steps, then the results, also of a run that is cut off. Raises RunError, Interrupted after a signal."""
         try:
             if not self.only_export:
-                bar = Bar(self.scenario.name, self.scenario.duration, O.time, self.options.quiet,
-                          Status(self.observer))
-                with self._stop_signals(), bar:
+                status = Status(self.observer)
+                with (self._stop_signals(),  # first: tqdm cannot be interrupted while it is made
+                      Bar(self.scenario.name, self.scenario.duration, O.time, self.options.quiet, status) as bar):
                     while O.iter < self.steps:
                         self.advance(self.next_stop())
                         self.after_chunk()
