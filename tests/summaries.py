@@ -23,7 +23,9 @@ def sample_summary(**changes):
     main = {key: summary.largest_drift(key)[0] for key in ("peak_drift", "residual_drift")}
     main |= {"broken": summary.broken.total, "partly_broken": summary.broken.partly_broken,
              "columns_lost": summary.columns.fallen + summary.columns.loose, "collapsed": summary.collapsed}
-    main["settled"] = summary.settled
+    amplitude = summary.largest_drift("final_amplitude")[0]
+    settled = not summary.still_moving or amplitude < main["residual_drift"]
+    main["settled"] = settled and summary.missed_shaking is None
     structures = {"main": main, **changes.get("structures", {})}
     summary = summary.changed(structures=structures)
     return summary.changed(verdict=changes.get("verdict", summary.main.verdict))

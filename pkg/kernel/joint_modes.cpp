@@ -204,11 +204,12 @@ void solveModes(ModalConstraint& c, PairVector& velocity, double threshold, doub
 {
 	const Vec6 now = modalNow(c, velocity);
 	const Vec6 q = c.springs.empty() ? dashpotImpulse(c, now) : c.springs.impulse(c.step(), now - c.impulse, now),
-	           change = (c.springs.empty() ? 1 : share) * (q - c.impulse);
+	           change = q - c.impulse;
 	c.squaredChange = change.squaredNorm();
 	if (c.squaredChange <= threshold) return;
-	c.impulse += change;
-	apply(c, velocity, change);
+	const Vec6 applied = (c.springs.empty() ? 1 : share) * change;
+	c.impulse += applied;
+	apply(c, velocity, applied);
 }
 
 ModalLaw modalLaw(ModalConstraint& c, const Vec6& after)

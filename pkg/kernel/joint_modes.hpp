@@ -164,8 +164,8 @@ void addSprings(ModalConstraint& constraint, SpringSteps springs);
 /// Applies the impulse of a stiff joint's last forces. change: dW of (8), contact_solver.hpp, in-out.
 void warmStart(const ModalConstraint& constraint, PairVector& change);
 
-/// One Gauss-Seidel visit: (3), or (3) of spring_step.hpp. A squared change of at most `threshold` [J] is not applied, of
-/// a stiff joint a share of it.
+/// One Gauss-Seidel visit: (3), or (3) of spring_step.hpp. A squared change of at most `threshold` [J] is not applied, a
+/// larger one of a stiff joint in part. share: of it [-]
 void solveModes(ModalConstraint& constraint, PairVector& change, double threshold, double share = 1);
 
 /// Impulse of the modes as a function of eta'. after: eta' [kg^1/2 m/s].

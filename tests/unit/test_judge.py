@@ -105,7 +105,7 @@ def test_columns_belong_to_storeys():
 
 def test_history():
     """Columns of history.csv; samples without finite numbers are left out."""
-    history = samples([(0.1, 0.2, -0.3), (0.1, 0.6, -0.3), (0, 0, 0)], np.full((3, 3), np.nan)).history(LEVELS[:2])
+    history = samples([(0.1, 0.2, -0.3), (0.1, 0.6, -0.3), (0, 0, 0)], np.full((3, 3), np.nan)).history([0, 1], HEIGHTS)
     assert history.columns[:7] == ("time [s]", "drift_ns1 [-]", "drift_ew1 [-]", "drop1 [m]", "drift_ns2 [-]",
                                    "drift_ew2 [-]", "drop2 [m]")
     assert history.rows[:, 1:7] == pytest.approx(np.array([[0.1, 0.05, 0.3, 0.1, 0, 0.3]]))

@@ -161,6 +161,14 @@ def halfspace_vertices(planes):
     return np.round(corners, SNAP_DIGITS) + 0.0
 
 
+def near_boxes(solids, margin):
+    """(k, (n,) numbers above k) for each polyhedron: those whose bounding boxes lie within `margin` [m] of its own."""
+    bounds = np.array([solid.bounds for solid in solids])
+    low, high = bounds[:, 0] - margin, bounds[:, 1]
+    for k in range(len(bounds)):
+        yield k, k + 1 + np.flatnonzero(((low[k] <= high[k + 1:]) & (low[k + 1:] <= high[k])).all(1))
+
+
 def products(a, b):
     """Matrix product a b without BLAS, whose last bits depend on the processor."""
     return np.einsum("ij,jk->ik", a, b)

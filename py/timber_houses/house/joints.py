@@ -7,7 +7,7 @@ from itertools import combinations, product
 import numpy as np
 
 from .errors import HouseError
-from .geometry import contact_polygon, facing_polygon, plane_axes, polygon_area, separation
+from .geometry import contact_polygon, facing_polygon, near_boxes, plane_axes, polygon_area, separation
 from .joint_values import END_JOINED, first, joint_values, kinds_of
 from .limits import MAX_PAIRS
 from .model import JointSpec
@@ -50,7 +50,7 @@ def _contacts(elements, data, named):
     rules = {(*kinds, rule["across"]): name for name, rule in data["joints"].items() for kinds in kinds_of(rule)}
     search, contacts = data["joint_search"], []
     gaps = [search["gap"], *(rule["gap"] for rule in named.values())]
-    for pair in near_pairs(elements, max(search["plane_tolerance"], *gaps) if any(gaps) else search["plane_tolerance"]):
+    for pair in near_pairs(elements, max(search["plane_tolerance"], *gaps)):
         a, b = sorted(pair, key=lambda element: first(element.kind))
         key = next(filter(named.__contains__, map(frozenset, product(_names(a), _names(b)))), None) if named else None
         if key is None:
@@ -93,12 +93,10 @@ def _is_end(a, normal):
 
 def near_pairs(elements, margin):
     """Pairs of elements with bounding boxes within `margin` [m], in order; HouseError for more than MAX_PAIRS."""
-    bounds = np.array([e.solid.bounds for e in elements])
-    low, high = bounds[:, 0] - margin, bounds[:, 1]
     pairs = []
-    for i, element in enumerate(elements):
-        near = ((low[i] <= high[i + 1:]) & (low[i + 1:] <= high[i])).all(1)
-        pairs += [(element, elements[i + 1 + k]) for k in np.flatnonzero(near)]
+    for k, near in near_boxes([element.solid for element in elements], margin):
+        element = elements[k]
+        pairs += [(element, elements[other]) for other in near]
         if len(pairs) > MAX_PAIRS:
             raise HouseError(f"{element.source}: {element.kind} {element.name}: more than {MAX_PAIRS} pairs of elements"
                              " touch or overlap by their bounding boxes; move members apart")

@@ -135,11 +135,10 @@ wall_type = Record({"multiplier": Number("", 0.0, 20.0, default=None),
                     "friction_share": Number("", 0.0, 1.0, default=None), "softening_drift": _drift,
                     "ultimate_drift": _drift, "residual_share": Number("", 0.0, 0.95, default=0.0),
                     "panel_share": Number("", 0.1, 1.0, default=0.6), "finish": Flag(False)})
+_fittings = {"number": Number("fittings", 1, 100, whole=True, default=1), "share": Number("", 0.01, 1.0, default=1.0),
+             "strength": Number("N", 100.0, infinite=True, default=None)}
 joint_rule = Record({"between": ListOf(ListOf(Choice(KINDS), scalar=True, most=len(KINDS)), 2), "type": word(),
-                     "kind": word(), "across": Flag(False),
-                     "number": Number("fittings", 1, 100, whole=True, default=1),
-                     "share": Number("", 0.01, 1.0, default=1.0),
-                     "strength": Number("N", 100.0, infinite=True, default=None)})
+                     "kind": word(), "across": Flag(False), **_fittings})
 _coordinate = Number("m", -500, 500)
 point = ListOf(_coordinate, 3)
 _place = Number("m", -500, 500, default=None)
@@ -160,10 +159,7 @@ member = Record({"from": end, "to": end, "section": ListOf(length(0.005, 5.0), 2
 plate = Record({"corners": ListOf(point, least=3, most=12, default=None), "over": ListOf(word(), 2, default=None),
                 "overhang": length(high=5.0, default=0.0, open_low=False), "thickness": length(0.001, 2.0),
                 "kind": Choice(KINDS[:-2], "floor"), "snow": Flag(True), **_parts}, one_of=("corners", "over"))
-named_joint = Record({"between": ListOf(word(), 2), "type": word(), "kind": word(None),
-                      "number": Number("fittings", 1, 100, whole=True, default=1),
-                      "share": Number("", 0.01, 1.0, default=1.0),
-                      "strength": Number("N", 100.0, infinite=True, default=None),
+named_joint = Record({"between": ListOf(word(), 2), "type": word(), "kind": word(None), **_fittings,
                       "gap": length(high=0.1, default=0.0, open_low=False)})
 frame = Record({"members": MapOf(member, most=MAX_ELEMENTS), "plates": MapOf(plate, default={}),
                 "storeys": ListOf(ListOf(_coordinate, 2), most=MAX_STOREYS, default=()),

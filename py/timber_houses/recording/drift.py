@@ -82,6 +82,11 @@ def still_moving(amplitudes):
     return any(amplitude > MOVING_AMPLITUDE for amplitude in amplitudes)
 
 
+def has_settled(residuals, amplitudes):
+    """Whether the drift at the end is a residual one: the largest amplitude is below it, or below MOVING_AMPLITUDE."""
+    return not still_moving(amplitudes) or max(amplitudes) < max(residuals)
+
+
 def by_storey(values):
     """{'storey1': {'ns', 'ew'}, ...} from [ns1, ew1, ns2, ...]; at least two storeys, None without a value."""
     values = [float(value) if np.isfinite(value) else None for value in values]

@@ -40,8 +40,7 @@ class Judge:
     def __init__(self, levels, columns=(), known=None):
         names = list(dict.fromkeys(level.structure for level in levels))
         groups = {name: [k for k, level in enumerate(levels) if level.structure == name] for name in names}
-        self._groups = groups
-        self._heights = {name: [levels[k].height for k in groups[name]] for name in names}
+        self._groups, self._heights = groups, {name: [levels[k].height for k in groups[name]] for name in names}
         self._columns = {(name, storey): [k for k, column in enumerate(columns) if column == (name, storey)]
                          for name in names for storey in range(1, len(groups[name]) + 1)}
         self.structures = known or {name: Judged.of(len(groups[name])) for name in names}
@@ -49,6 +48,10 @@ class Judge:
     @property
     def main(self):
         return next(iter(self.structures.values()))
+
+    def histories(self, samples):
+        """{structure: History} of samples, the main one first."""
+        return {name: samples.history(groups, self._heights[name]) for name, groups in self._groups.items()}
 
     def judge(self, samples, axes):
         """Take account of further samples. samples: Samples; axes: (F, C, 3) of the columns, NaN: without a joint"""

@@ -37,12 +37,12 @@ class Samples(Series):
         chosen = self.groups[:, groups, 1]
         return np.column_stack([self.time, chosen.reshape(self.samples, 3 * chosen.shape[1])])
 
-    def history(self, levels, first=0):
-        """History of the storeys below these levels (damage.Level, from below), the groups from `first` on; without
-        samples of a scene whose numbers have failed."""
-        moved = self.displacement[:, first:first + len(levels)]
-        drift, parts, names = drifts(moved, [level.height for level in levels]), [self.time], []
-        for k in range(len(levels)):
+    def history(self, groups, heights):
+        """History of storeys below the levels of these groups, from below; without samples of a scene whose numbers
+        have failed. heights: of the storeys [m]"""
+        moved = self.displacement[:, groups]
+        drift, parts, names = drifts(moved, heights), [self.time], []
+        for k in range(len(groups)):
             parts += [drift[:, k], -moved[:, k, 2]]
             names += [*(f"drift_{direction}{k + 1} [-]" for direction in DIRECTIONS), f"drop{k + 1} [m]"]
         table = np.column_stack([*parts, self.rows[:, 1:self.first]])

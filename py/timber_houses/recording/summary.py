@@ -170,12 +170,6 @@ class Summary:
         return (onset, end) if ended else None
 
     @property
-    def settled(self):
-        """Whether the drift at the end is a residual one: the strong shaking is over, and the house swings by less."""
-        amplitude, left = (self.largest_drift(key)[0] for key in ("final_amplitude", "residual_drift"))
-        return self.missed_shaking is None and (not self.still_moving or amplitude < left)
-
-    @property
     def partly_broken(self):
         """Number of joints and wall sheets that lost some springs."""
         return self.broken.partly_broken + (self.broken.wall_sheets_partly or 0)

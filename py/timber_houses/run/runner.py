@@ -250,9 +250,10 @@ class Run(Stoppable):
             self.take(O.time, last=True)
         self.observer.read_samples()
         sampled = self.samples.all(self.observer)
-        history, tables = sampled.history(self.observer.main_levels), quantities.tables(self.observer, sampled)
-        self.summary = summary.summary(self.scenario, self.observer, sampled, tables, self.wall_s, self.origin, cut_off)
-        written = self._results(history, tables)
+        histories, tables = self.observer.judge.histories(sampled), quantities.tables(self.observer, sampled)
+        self.summary = summary.summary(self.scenario, self.observer, histories, tables, self.wall_s, self.origin,
+                                       cut_off)
+        written = self._results(next(iter(histories.values())), tables)
         if cut_off or O.iter >= self.steps:  # else a live run goes on
             with explain_writing(self.options):
                 self.samples.enclose(self.checkpoint_path, self.observer)

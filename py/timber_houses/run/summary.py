@@ -29,18 +29,18 @@ NAMES = (NAME, HISTORY, BREAKS, *quantities.NAMES)
 O = yw.Omega()
 
 
-def summary(scenario, observed, samples, tables, wall_s, made_from, cut_off=None):
-    """Summary of the scene as it is now. samples: of the run; tables: quantities.Tables; wall_s [s]; cut_off: reason
-    for an early end.
+def summary(scenario, observed, histories, tables, wall_s, made_from, cut_off=None):
+    """Summary of the scene as it is now. histories: {structure: History}, the main one first; tables:
+    quantities.Tables; wall_s [s]; cut_off: reason for an early end.
 
     Drifts: recording/drift.py; broken, columns: recording/damage.py. Raises RunError for energies that are not finite.
     """
     model, survey, state = observed.model, observed.survey, observed.state()
     skipper, main = find_engine(yw.RestSkipper), observed.judge.main
-    history = samples.history(observed.main_levels)
-    residual, amplitude = drift.residual(history)
+    history, ends = next(iter(histories.values())), {name: drift.residual(one) for name, one in histories.items()}
+    residual, amplitude = next(iter(ends.values()))
     simulated = round(O.iter * scenario.dt, 9)
-    structures = structures_of(observed, state, samples)
+    structures = structures_of(observed, state, ends)
     created = compiled.created_energy()
     energy = (energy_balance(queries.energy(), created) if cut_off is None
               else energy_balance(last_energies(history), _finite(created)))
@@ -72,16 +72,11 @@ def summary(scenario, observed, samples, tables, wall_s, made_from, cut_off=None
     return judged(draft)
 
 
-def structures_of(observed, state, samples):
-    """{name: Structure} with residual drifts as means over the last periods, the main one first."""
-    levels, found = observed.survey.levels, observed.survey.by_structure(state, observed.judge.structures)
-    for name, facts in found.items():
-        own = [k for k, level in enumerate(levels) if level.structure == name]
-        history = samples.history([levels[k] for k in own], own[0])
-        residual, amplitude = (max(values, default=0.0) for values in drift.residual(history))
-        settled = not drift.still_moving([amplitude]) or amplitude < residual
-        found[name] = replace(facts, residual_drift=residual, settled=settled)
-    return found
+def structures_of(observed, state, ends):
+    """{name: Structure} with residual drifts as means over the last periods. ends: {name: drift.residual}"""
+    found = observed.survey.by_structure(state, observed.judge.structures)
+    return {name: replace(facts, residual_drift=max(ends[name][0], default=0.0), settled=drift.has_settled(*ends[name]))
+            for name, facts in found.items()}
 
 
 def judged(draft):

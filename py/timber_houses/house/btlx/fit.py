@@ -15,7 +15,7 @@ from itertools import combinations
 import numpy as np
 
 from ..errors import HouseError
-from ..geometry import SAME, halfspace_vertices, polyhedron, separation
+from ..geometry import SAME, halfspace_vertices, near_boxes, polyhedron, separation
 from .reader import Part
 
 ROUNDING = 1.5e-3
@@ -89,10 +89,7 @@ def _excess(piece, face):
 
 def near(pieces, margin):
     """[(i, j)] of pieces with bounding boxes within `margin` [m]."""
-    bounds = np.array([piece.solid.bounds for piece in pieces])
-    low, high = bounds[:, 0] - margin, bounds[:, 1]
-    return [(i, j) for i in range(len(pieces))
-            for j in i + 1 + np.flatnonzero(((low[i] <= high[i + 1:]) & (low[i + 1:] <= high[i])).all(1))]
+    return [(i, j) for i, others in near_boxes([piece.solid for piece in pieces], margin) for j in others]
 
 
 def _separate(pieces):
