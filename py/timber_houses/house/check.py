@@ -102,8 +102,11 @@ def _check_supports(model, touching):
         supports[joint.a].add(joint.b)
         supports[joint.b].add(joint.a)
     for a, b in touching:
-        if b.name not in supports[a.name]:
-            _add_support(supports, a, b)
+        contact = (None if b.name in supports[a.name] or a.fixed and b.fixed
+                   else contact_polygon(a.solid, b.solid, TOUCH))
+        if contact and abs(contact[1][2]) > LYING:
+            lower, upper = (a, b) if contact[1][2] > 0 else (b, a)
+            supports[lower.name].add(upper.name)
     todo = [element.name for element in model.elements if element.fixed]
     supported = set(todo)
     while todo:
@@ -111,21 +114,11 @@ def _check_supports(model, touching):
         supported |= new
         todo += new
     loose = [element for element in model.elements if element.name not in supported]
-    if loose:
-        _report_unsupported(model, min(loose, key=lambda element: element.solid.bounds[0][2]), len(loose) - 1)
-
-
-def _add_support(supports, a, b):
-    """Record which of two touching elements lies on the other with a face, if one does."""
-    contact = None if a.fixed and b.fixed else contact_polygon(a.solid, b.solid, TOUCH)
-    if contact and abs(contact[1][2]) > LYING:
-        lower, upper = (a, b) if contact[1][2] > 0 else (b, a)
-        supports[lower.name].add(upper.name)
-
-
-def _report_unsupported(model, element, others):
+    if not loose:
+        return
+    element = min(loose, key=lambda element: element.solid.bounds[0][2])
     x, y, _ = element.solid.centroid
-    more = f" (and {others} more elements)" if others else ""
+    more = f" (and {len(loose) - 1} more elements)" if len(loose) > 1 else ""
     raise HouseError(f"{element.source}: {element.kind} {element.name} is unsupported near x {x:.3f}, y {y:.3f}, z"
                      f" {element.solid.bounds[0][2]:.3f} m: it lies on no element and has no joint; support it, join it"
                      f" (a rule in 'joints') or remove it{more}{_close_by(model, element)}")

@@ -45,7 +45,8 @@ def house_table(project, file):
     members, where = _members(pieces, contacts), f"{file}:1"
     named = [(pieces[i].name, pieces[j].name, how) for (i, j), how in joints.items()]
     named += [(name.removeprefix("pad-"), name, "butt") for name in list(members)[len(pieces):]]
-    lines = [*_lines(project, rough, pieces, ignored, used), _told_joints(how for *_, how in named), _supports(members)]
+    hows = ", ".join(f"{count} {how}" for how, count in sorted(Counter(how for *_, how in named).items()))
+    lines = [*_lines(project, rough, pieces, ignored, used), f"{len(named)} joints ({hows})", _supports(members)]
     for line in lines:
         warnings.warn(f"{file}: {line}", stacklevel=2)
     frame = {"members": Table(members, where),
@@ -68,18 +69,14 @@ def _pieces(project):
         for place in part.places:
             copies[label] += 1
             name = label if copies[label] == 1 else f"{label}-copy{copies[label]}"
-            origin, axes = place[0] - base, _axes(*place[1:])
+            origin, x, y = place[0] - base, *place[1:]  # x and y at nearly a right angle
+            x = x - (x @ y) * y  # y as stated, which all parts of a wall or roof share
+            x = x / np.linalg.norm(x)
+            axes = np.array([x, y, np.cross(x, y)])
             planes = [(normal @ axes, float(offset + normal @ axes @ origin))
                       for normal, offset in chain(box_planes(part.size), *found)]
             pieces.append(_without_slivers(Piece(name, part, origin, axes, planes, name)))
     return pieces, ignored
-
-
-def _axes(x, y):
-    """Axes (3, 3) of unit vectors at nearly a right angle: y as stated, which all parts of a wall or roof share."""
-    x = x - (x @ y) * y
-    x = x / np.linalg.norm(x)
-    return np.array([x, y, np.cross(x, y)])
 
 
 def _word(text):
@@ -148,7 +145,8 @@ def _members(pieces, contacts):
     for pair, middle in contacts.items():
         for k in pair:
             joined[k].add((middle - pieces[k].solid.centroid) @ pieces[k].axes[0] > 0)
-    resting = [_rests(piece, low[2]) for piece in pieces]
+    resting = [any(face.normal[2] < -0.999 and face.points[:, 2].max() < low[2] + FACE for face in piece.solid.faces)
+               for piece in pieces]
     kinds = [_kind(piece, rests, len(joined[k]) == 2) for k, (piece, rests) in enumerate(zip(pieces, resting))]
     feet = [piece for piece, kind, rests in zip(pieces, kinds, resting) if kind == "column" and rests]
     shift = [0, 0, PAD if feet else 0.0] - low
@@ -158,13 +156,8 @@ def _members(pieces, contacts):
     return members | {f"pad-{piece.name}": _pad(piece, shift) for piece in feet}
 
 
-def _rests(piece, height):
-    """Whether a face of a piece looks down at this height."""
-    return any(face.normal[2] < -0.999 and face.points[:, 2].max() < height + FACE for face in piece.solid.faces)
-
-
 def _kind(piece, rests, is_joined):
-    """is_joined: whether both halves of the piece meet other ones"""
+    """rests: whether a face looks down at the lowest height; is_joined: whether both halves of the piece meet others"""
     rise, (thin, wide) = abs(piece.axes[0][2]), sorted(piece.part.size[1:])
     if thin <= SHEET[0] and wide > SHEET[1] * thin:
         across = piece.axes[1 if piece.part.size[1] == thin else 2]
@@ -240,11 +233,6 @@ def _lines(project, rough, pieces, ignored, used):
                      f" {100 * lost[name]:.2g} % of a part, {name}")
     divided = [piece.name for piece in pieces if piece.name not in whole]
     return lines + [f"divided where others pass: {', '.join(divided)}"] * bool(divided)
-
-
-def _told_joints(hows):
-    counts = Counter(hows)
-    return f"{counts.total()} joints ({', '.join(f'{count} {how}' for how, count in sorted(counts.items()))})"
 
 
 def _supports(members):
