@@ -10,10 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..base.gravity import weight_of
 from ..base.joint_kinds import WALL_COLUMN, WALL_KINDS
 from . import diagnosis_tables as rules
-from .loads import bay_length, upper_area
+from .loads import bay_length
 from .pushover import pushover, secant_periods
 from .wall_quantity import requirement
 from .wall_types import RATED_DRIFT
@@ -68,24 +67,19 @@ def judgement(iw):
 def sentence(diagnosis):
     """'seismic index Iw 0.54 (main, storey 1, E-W): likely to collapse under a very rare earthquake; ...; natural
     periods at a drift of 1/120: N-S 0.60 s, E-W 0.59 s'."""
-    return _index_sentence(diagnosis) + _periods_sentence(next(iter(diagnosis["structures"].values()), None))
-
-
-def _periods_sentence(structure):
-    """Of the main structure; empty where walls and braces give it none."""
+    if diagnosis["iw"] is None:
+        index = "no seismic index: the rules are for one to three storeys with a floor area"
+    else:
+        ratio = 100 * diagnosis["wall_quantity_ratio"]
+        index = (f"seismic index Iw {diagnosis['iw']:.2f} ({diagnosis['iw_at']}): {diagnosis['judgement']} under a very"
+                 f" rare earthquake; least wall quantity {ratio:.0f} % of the required one by the {diagnosis['rule']}"
+                 f" ({diagnosis['wall_quantity_at']})")
+    structure = next(iter(diagnosis["structures"].values()), None)  # the main one
     periods = {name: period for name in ("ns", "ew") if structure and (period := structure["periods_s"][name])}
     if not periods:
-        return ""
+        return index
     values = ", ".join(f"{rules.DIRECTION_NAMES[name]} {period:.2f} s" for name, period in periods.items())
-    return f"; natural periods at a drift of 1/{1 / structure['periods_s']['drift']:.0f}: {values}"
-
-
-def _index_sentence(diagnosis):
-    if diagnosis["iw"] is None:
-        return "no seismic index: the rules are for one to three storeys with a floor area"
-    return (f"seismic index Iw {diagnosis['iw']:.2f} ({diagnosis['iw_at']}): {diagnosis['judgement']} under a very rare"
-            f" earthquake; least wall quantity {100 * diagnosis['wall_quantity_ratio']:.0f} % of the required one"
-            f" by the {diagnosis['rule']} ({diagnosis['wall_quantity_at']})")
+    return f"{index}; natural periods at a drift of 1/{1 / structure['periods_s']['drift']:.0f}: {values}"
 
 
 def comparison(summary):
@@ -120,23 +114,18 @@ def _circumstances(summary):
 
 
 def _structure(model, group):
-    storeys, roof = sorted(model.storey_levels[group]), _roof_class(model, group)
-    needs = requirement(model, group, roof)
+    storeys, needs = sorted(model.storey_levels[group]), requirement(model, group)
     bays = _bays(model, group, needs.rule.largest_multiplier)
-    strengths = dict(enumerate(_required_strengths(roof, len(storeys), model.snow_depth), 1))
+    first, last = rules.SNOW_DEPTHS
+    addition = rules.SNOW_STRENGTH * min(model.snow_depth, last) if model.snow_depth >= first else 0.0
+    strengths = {k: strength + addition for k, strength  # Qr [kN/m2], empty beyond three storeys
+                 in enumerate(rules.REQUIRED_STRENGTH[needs.roof_class].get(len(storeys), ()), 1)}
     curves = pushover(model, group)
-    return {"roof": roof, **needs.table(),
+    return {"roof": needs.roof_class, **needs.table(),
             "periods_s": {"drift": RATED_DRIFT, **secant_periods(model, group, curves, RATED_DRIFT)},
             "storeys": {str(storey): _storey(model, group, storey, needs, strengths.get(storey), bays, curves)
                         for storey in storeys},
             "uplift": _uplift(model, group, bays)}
-
-
-def _required_strengths(roof, storeys, snow):
-    """[Qr [kN/m2]] of the storeys, empty beyond three. snow: depth [m]"""
-    first, last = rules.SNOW_DEPTHS
-    addition = rules.SNOW_STRENGTH * min(snow, last) if snow >= first else 0.0
-    return [strength + addition for strength in rules.REQUIRED_STRENGTH[roof].get(storeys, ())]
 
 
 def _storey(model, group, storey, needs, strength, bays, curves):
@@ -229,13 +218,6 @@ def _mass_centre(model, group, storey):
     return sum(e.mass * e.solid.centroid[:2] for e in carried) / total if total > 0 else np.zeros(2)
 
 
-def _roof_class(model, group):
-    roofs = model.of_kind("roof", group=group)
-    area = sum(upper_area(roof) for roof in roofs)
-    load = weight_of(sum(roof.mass for roof in roofs)) / area if area > 0 else 0.0
-    return next(name for least, name in rules.ROOF_CLASSES if load >= least)
-
-
 # --- bays -------------------------------------------------------------------------------------------------------------
 
 
@@ -294,9 +276,8 @@ def _uplift(model, group, bays):
     columns = {(storey, place): model.element(name) for storey, plan in model.plans[group].items()
                for place, name in plan.columns.items()}
     strengths = _foot_strengths(model)
-    needs = [(n_value(columns, key, bays, model.plans[group]), strengths.get(column.name, 0.0), column.name)
-             for key, column in columns.items()]
-    rows = [(max(0.0, n) * rules.UPLIFT_KN, strength, name) for n, strength, name in needs]
+    rows = [(max(0.0, n_value(columns, key, bays, model.plans[group])) * rules.UPLIFT_KN,
+             strengths.get(column.name, 0.0), column.name) for key, column in columns.items()]
     if not rows:
         return None
     need, strength, name = max(rows, key=lambda row: row[0])

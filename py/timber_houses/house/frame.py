@@ -29,12 +29,17 @@ class Frame:
     def __init__(self, table, materials):
         self.table, self.materials = table, materials
         self.parts = Parts(table["members"], table["plates"])
-        self._require_names()
+        twice = table["members"].keys() & table["plates"].keys()
+        if twice:
+            fail(table["plates"].at(min(twice)), f"frame.plates.{min(twice)}", "a member has this name; choose another"
+                 " one")
         self.elements, self.tops = [], {}
         for name, entry in self.parts.tables.items():
             self._add(name, entry)
-        self.named = {frozenset(f"{FRAME}.{self._known(name, rule, i)}" for name in rule["between"]): rule
-                      for i, rule in enumerate(table["joints"], 1)}
+        for i, rule in enumerate(table["joints"], 1):
+            for name in rule["between"]:
+                self.parts.find(name, rule.at("between"), f"frame.joints[{i}].between")
+        self.named = {frozenset(f"{FRAME}.{name}" for name in rule["between"]): rule for rule in table["joints"]}
         self.levels = self._given_levels() if table["storeys"] else self._found_levels()
         feet = [foot for foot, _ in self.levels.values()]
         self.heights = dict(zip(self.levels, np.diff([*feet, self.levels[len(feet)][1]]).tolist()))
@@ -63,12 +68,6 @@ class Frame:
 
     # --- members ------------------------------------------------------------------------------------------------------
 
-    def _require_names(self):
-        twice = self.table["members"].keys() & self.table["plates"].keys()
-        if twice:
-            name = min(twice)
-            fail(self.table["plates"].at(name), f"frame.plates.{name}", "a member has this name; choose another one")
-
     def _add(self, name, entry):
         """Elements of all copies of a part."""
         copies, is_plate = self.parts[name], name in self.table["plates"]
@@ -88,11 +87,6 @@ class Frame:
         return Element(f"{FRAME}.{label}", kind, vertices, material, self.materials[material]["density"], group=FRAME,
                        source=where, **more)
 
-    def _known(self, name, rule, number):
-        """Name of a member of a named joint, with or without the number of its copy."""
-        self.parts.find(name, rule.at("between"), f"frame.joints[{number}].between")
-        return name
-
     # --- storeys ------------------------------------------------------------------------------------------------------
 
     def _given_levels(self):
@@ -110,7 +104,8 @@ class Frame:
         standing = [e.solid.bounds[:, 2] for e in columns or self.elements]
         foot = float(min(low for low, _ in standing))
         slabs = sorted(tuple(e.solid.bounds[:, 2].tolist()) for e in self.elements
-                       if e.kind in SLABS and np.ptp(e.solid.bounds[:, 2]) < STEP and _is_level(e))
+                       if e.kind in SLABS and np.ptp(e.solid.bounds[:, 2]) < STEP
+                       and max(e.solid.face_normals[:, 2]) > 1 - 1e-6)
         levels: dict = {}
         for low, high in slabs:
             if low - foot >= STEP:
@@ -150,7 +145,3 @@ class Frame:
         band = max(element.section)
         near = {"west": east - x0, "east": x1 - west, "south": north - y0, "north": y1 - south}
         return frozenset(side for side, distance in near.items() if distance < band)
-
-
-def _is_level(element):
-    return max(element.solid.face_normals[:, 2]) > 1 - 1e-6

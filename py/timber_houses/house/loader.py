@@ -60,20 +60,16 @@ def _chain(path):
 
 def _table(path, nodes_left):
     """(Table, number of YAML values) of one file."""
-    if _is_btlx(path):
+    if path.suffix.lower() == BTLX:
         return btlx.btlx_table(_content(path), path.name), 0
     return parse_table(text_of(path), path.name, nodes_left)
 
 
 def btlx_text(path):
     """YAML of a house file of what is read of a BTLx file. Raises HouseError."""
-    if not _is_btlx(path):
+    if path.suffix.lower() != BTLX:
         raise HouseError(f"{shown(str(path))}: is no BTLx file; its name must end in {BTLX}")
     return house_text(plain(_table(path, 0)[0]), in_lines=True)
-
-
-def _is_btlx(path):
-    return path.suffix.lower() == BTLX
 
 
 def text_of(path):
@@ -85,7 +81,7 @@ def text_of(path):
 
 def _content(path):
     try:
-        return read_bytes(path, btlx.MAX_FILE_SIZE if _is_btlx(path) else MAX_FILE_SIZE)
+        return read_bytes(path, btlx.MAX_FILE_SIZE if path.suffix.lower() == BTLX else MAX_FILE_SIZE)
     except OSError as problem:
         raise HouseError(f"{path}: cannot be read: {problem.strerror}") from None
 

@@ -35,15 +35,14 @@ def _of_table(path):
     missing = [key for key in ("lot", "house", "x", "y") if key not in heads]
     if missing:
         raise HouseError(f"{path.name}:1: no column {missing[0]}; a table of lots has lot, {', '.join(KEYS)}")
-    return _named(_row(dict(zip(heads, map(str.strip, row))), f"{path.name}:{number}")
-                  for number, row in enumerate(rows, 2) if any(map(str.strip, row)))
-
-
-def _row(cells, where):
-    """(name, Table) of a row."""
-    values = {key: text if key == "house" else parse_value(text, where)
-              for key, text in cells.items() if text and key != "lot"}
-    return cells["lot"], Table(values, where, dict.fromkeys(values, where))
+    lots = []
+    for number, row in enumerate(rows, 2):
+        cells, where = dict(zip(heads, map(str.strip, row))), f"{path.name}:{number}"
+        values = {key: text if key == "house" else parse_value(text, where)
+                  for key, text in cells.items() if text and key != "lot"}
+        if any(map(str.strip, row)):
+            lots.append((cells["lot"], Table(values, where, dict.fromkeys(values, where))))
+    return _named(lots)
 
 
 def _of_map(path):
@@ -59,14 +58,12 @@ def _of_map(path):
     if not all(abs(longitude) <= 180 and abs(latitude) < 90 for longitude, latitude in places):
         raise HouseError(f"{path.name}: coordinates must be longitude and latitude in degrees (WGS 84)")
     origin = [sum(values) / len(places) for values in zip(*places)]
-    return _named((name, _feature(feature["properties"], _metres(place, origin), f"{path.name}: feature {number}"))
-                  for number, (name, feature, place) in enumerate(zip(names, features, places), 1))
-
-
-def _feature(properties, place, where):
-    values = {key: properties[key] for key in KEYS if properties.get(key) is not None}
-    values |= dict(zip("xy", place))
-    return Table(values, where, dict.fromkeys(values, where))
+    lots = []
+    for number, (name, feature, place) in enumerate(zip(names, features, places), 1):
+        values = {key: feature["properties"][key] for key in KEYS if feature["properties"].get(key) is not None}
+        values |= dict(zip("xy", _metres(place, origin)))
+        lots.append((name, Table(values, where := f"{path.name}: feature {number}", dict.fromkeys(values, where))))
+    return _named(lots)
 
 
 def _place(geometry):

@@ -138,13 +138,10 @@ def _group_nodes(structure, group):
     elif group["grid"] is not None:
         nodes = [(x, y) for y in group["grid"]["y"] for x in group["grid"]["x"]]
     else:
-        nodes = [node for line in _single_lines(structure, group["lines"]) for node in _line_nodes(line)]
+        nodes = []  # every whole node along the lines, both ends included
+        for line in _single_lines(structure, group["lines"]):
+            along = np.arange(np.ceil(line["from"]), np.floor(line["to"]) + 1).tolist()
+            nodes += [(n, line["at"]) if line["along"] == "x" else (line["at"], n) for n in along]
     for axis, values in zip("xy", zip(*nodes)):
         structure.check_nodes(axis, values, group.where)
     return nodes
-
-
-def _line_nodes(line):
-    """Every whole node along a line, both ends included."""
-    along = np.arange(np.ceil(line["from"]), np.floor(line["to"]) + 1).tolist()
-    return [(n, line["at"]) if line["along"] == "x" else (line["at"], n) for n in along]

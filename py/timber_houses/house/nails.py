@@ -56,7 +56,12 @@ class NailedWall:
 def nailed_wall(nails):
     """NailedWall of the table `nails` of a wall type."""
     board = nails["board"]
-    arrays = [_array(_positions(nails, height)) for height in board["heights"]]
+    arrays = []
+    for x, y in (_positions(nails, height).T for height in board["heights"]):
+        ix, iy = (y**2).sum(), (x**2).sum()
+        of_board = ix * iy / (ix + iy)
+        slips = np.hypot(y / ix, x / iy) * of_board
+        arrays.append((of_board, of_board / slips.max(), slips.sum()))
     ixy, zxy, zpxy = np.sum(arrays, axis=0)
     height = sum(board["heights"]) if nails["height"] is None else nails["height"]
     shear = board["shear_modulus"] * board["thickness"] * board["width"] * sum(board["heights"])
@@ -80,11 +85,3 @@ def _positions(nails, height):
 def _line(half, spacing):
     """Nails at equal distances, about the spacing, from -half to half."""
     return np.linspace(-half, half, max(1, round(2 * half / spacing)) + 1)
-
-
-def _array(points):
-    """(Ixy, Zxy, Zpxy) of the nails of a board."""
-    ix, iy = (points[:, 1] ** 2).sum(), (points[:, 0] ** 2).sum()
-    ixy = ix * iy / (ix + iy)
-    slips = np.hypot(points[:, 1] / ix, points[:, 0] / iy) * ixy
-    return ixy, ixy / slips.max(), slips.sum()

@@ -47,7 +47,12 @@ def changed_house(name_or_path, settings=(), braces=(), strength=1.0, where="{}"
     for name in braces:
         _fill(data, name, where("braces"))
     checked(data, path)
-    _strengthen(data, strength, where("strength"))
+    if not MIN_FACTOR <= strength <= MAX_FACTOR:
+        raise HouseError(f"{where('strength')}: {strength:g}: the factor on the joints' strength must be in"
+                         f" [{MIN_FACTOR:g}, {MAX_FACTOR:g}]")
+    for table in (*data["joint_types"].values(), *data["joints"].values()):
+        if table.get("strength") is not None:
+            table["strength"] *= strength
     return plain(data)
 
 
@@ -111,8 +116,10 @@ def _fill(data, text, where):
     if bay is None:
         raise HouseError(f"{where}: {shown(text)}: write a brace like main.brace1.EW.y0.3-4 or a wall like"
                          " main.wall2.NS.x8.6-7.plywood")
-    table, place = _structure(data, bay.structure, text, where), {"along": bay.along, "at": bay.at,
-                                                                  "storeys": bay.storey}
+    if bay.structure not in data["structures"]:
+        raise HouseError(f"{where}: {text}: unknown structure '{bay.structure}'; known:"
+                         f" {', '.join(data['structures'])}")
+    table, place = data["structures"][bay.structure], {"along": bay.along, "at": bay.at, "storeys": bay.storey}
     if bay.type:
         _append(table.setdefault("walls", Items((), where)),
                 {**place, "from": bay.start, "to": bay.end, "type": bay.type}, where)
@@ -122,21 +129,6 @@ def _fill(data, text, where):
         _append(braces.setdefault("lines", Items((), where)), {**place, "runs": runs}, where)
 
 
-def _structure(data, structure, name, where):
-    if structure not in data["structures"]:
-        raise HouseError(f"{where}: {name}: unknown structure '{structure}'; known: {', '.join(data['structures'])}")
-    return data["structures"][structure]
-
-
 def _append(lines, line, where):
     lines.append(Table(line, where, dict.fromkeys(line, where)))
     lines.entries.append(where)
-
-
-def _strengthen(data, factor, where):
-    if not MIN_FACTOR <= factor <= MAX_FACTOR:
-        raise HouseError(f"{where}: {factor:g}: the factor on the joints' strength must be in [{MIN_FACTOR:g},"
-                         f" {MAX_FACTOR:g}]")
-    for table in (*data["joint_types"].values(), *data["joints"].values()):
-        if table.get("strength") is not None:
-            table["strength"] *= factor

@@ -88,8 +88,9 @@ def floor_plan(columns, slabs):
     places = np.array(list(columns)).reshape(-1, 2)
     edges = tuple(_distinct([*places[:, axis], *(corner[axis] for slab in slabs for corner in slab)])
                   for axis in (0, 1))
-    floor = np.array([[_carried((x, y), places) and _covered((x, y), slabs) for y in _middles(edges[1])]
-                      for x in _middles(edges[0])], bool)
+    middles = [(e[:-1] + e[1:]) / 2 for e in edges]
+    floor = np.array([[_carried((x, y), places) and _covered((x, y), slabs) for y in middles[1]] for x in middles[0]],
+                     bool)
     return FloorPlan(edges, floor.reshape([max(0, len(e) - 1) for e in edges]), columns)
 
 
@@ -119,7 +120,3 @@ def _carried(point, columns):
 def _distinct(values):
     values = np.sort(values)
     return values[np.diff(values, prepend=-np.inf) > ROUNDING]
-
-
-def _middles(edges):
-    return (edges[:-1] + edges[1:]) / 2

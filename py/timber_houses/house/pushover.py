@@ -26,25 +26,17 @@ def pushover(model, group):
     for joint in model.joints:
         if joint.group == group and joint.kind == WALL_COLUMN and not joint.broken:
             low, high = model.element(joint.a), model.element(joint.b)
-            curves[low.storey, _direction(low, high)].append(_wall(joint, low, high))
+            axis = int(np.argmax(np.abs(high.solid.centroid - low.solid.centroid)[:2]))
+            # the spring between its columns: stretch = length x drift, force = half of the shear x height / length
+            length, height = bay_length(low, high), float(np.ptp(low.vertices[:, 2]))
+            stretches, forces = np.transpose([(0.0, 0.0), *joint.envelope])
+            curves[low.storey, DIRECTIONS[axis]].append((stretches / length, SHARES * forces * length / height))
     for brace in model.of_kind("brace", group=group):
         if (curve := _brace(model, brace)) is not None:
             along = np.ptp(brace.vertices, axis=0)
             curves[brace.storey, DIRECTIONS[int(along[1] > along[0])]].append(curve)
     return {(storey, direction): _sum(curves[storey, direction])
             for storey in model.storey_levels[group] for direction in DIRECTIONS}
-
-
-def _direction(low, high):
-    return DIRECTIONS[int(np.argmax(np.abs(high.solid.centroid - low.solid.centroid)[:2]))]
-
-
-def _wall(joint, low, high):
-    """(drifts, shears [N]) of a sheet. Of the spring between its columns: stretch = length x drift, force = half of the
-    shear x height / length."""
-    length, height = bay_length(low, high), float(np.ptp(low.vertices[:, 2]))
-    stretches, forces = np.transpose([(0.0, 0.0), *joint.envelope])
-    return stretches / length, SHARES * forces * length / height
 
 
 def _brace(model, brace):
@@ -97,13 +89,11 @@ def secant_periods(model, group, curves, drift):
                            if column.storey == storey] or [0.0]) for storey in storeys]
         rocking = weights * (widths / heights - drift)
         stiffness = (shears + rocking) / (drift * heights)  # [N/m]
-        periods[direction] = _lowest_period(stiffness, masses) if all(shears > abs(rocking)) else None
+        periods[direction] = None
+        if not all(shears > abs(rocking)):
+            continue
+        above = np.append(stiffness[1:], 0.0)  # springs from the ground up: K x = omega^2 M x, made symmetric
+        matrix = np.diag(stiffness + above) - np.diag(above[:-1], 1) - np.diag(above[:-1], -1)
+        omega2 = np.linalg.eigvalsh(matrix / np.sqrt(np.outer(masses, masses)))
+        periods[direction] = round(float(2 * np.pi / np.sqrt(omega2[0])), 3)
     return periods
-
-
-def _lowest_period(stiffness, masses):
-    """Of a chain of springs from the ground up: K x = omega^2 M x, made symmetric. [N/m], [kg] -> [s]"""
-    above = np.append(stiffness[1:], 0.0)
-    matrix = np.diag(stiffness + above) - np.diag(above[:-1], 1) - np.diag(above[:-1], -1)
-    omega2 = np.linalg.eigvalsh(matrix / np.sqrt(np.outer(masses, masses)))
-    return round(float(2 * np.pi / np.sqrt(omega2[0])), 3)

@@ -71,13 +71,9 @@ def parts(model):
     found: list = []
     for hull in sorted(map(ConvexHull, plans), key=lambda hull: -hull.volume):  # volume: in a plane, the area
         corners = hull.points[hull.vertices]
-        if not any(_within(corners, other) for other in found):
+        if not any((corners @ other.equations[:, :2].T + other.equations[:, 2] <= ROUNDING).all() for other in found):
             found.append(hull)
     return [hull.points[hull.vertices] for hull in found]
-
-
-def _within(points, hull):
-    return (points @ hull.equations[:, :2].T + hull.equations[:, 2] <= ROUNDING).all()
 
 
 @dataclass(frozen=True)

@@ -177,7 +177,7 @@ class Requirement:
         return found
 
 
-def requirement(model, group, roof_class):
+def requirement(model, group):
     """Requirement of a structure of a HouseModel."""
     code, levels = model.code[group], model.storey_levels[group]
     roofs = model.of_kind("roof", group=group)
@@ -187,18 +187,16 @@ def requirement(model, group, roof_class):
     top = max((e.vertices[:, 2].max() for e in model.of_kind("beam", group=group)),
               default=levels[max(levels)][1])
     rise = max((roof.vertices[:, 2].max() for roof in roofs), default=top) - top
-    roof, roof_load = _kind(ROOFS, code["roof"], _own_load(roofs, surface))
+    weight = weight_of(sum(roof.mass for roof in roofs))
+    own, own_load = (weight / surface, 1000 * weight / surface) if surface > 0 else (0.0, 0.0)
+    roof_class = next(name for least, name in tables.ROOF_CLASSES if own >= least)
+    roof, roof_load = _kind(ROOFS, code["roof"], own_load)
     wall, wall_load_ = _kind(WALLS, code["wall"], 1000 * (code["wall_load"] or 0.0) + FRAME)
     loads = Loads(roof_load, wall_load_, 1000 * code["solar"], SNOW_UNIT * model.snow_depth * code["snow"],
                   *((surface / covered, cover / covered) if covered > 0 and roofs else (1.0, 1.0)), code["c0"])
     feet = [levels[storey][0] for storey in sorted(levels)]
     storeys = Storeys(areas, tuple(float(h) for h in np.diff([*feet, top])), float(top + rise / 2))
     return Requirement(RULES[code["rule"]], code["rule"], storeys, loads, roof_class, {"roof": roof, "wall": wall})
-
-
-def _own_load(roofs, surface):
-    """Of the roofs as modelled. [N per m2 of surface]"""
-    return 1000 * weight_of(sum(roof.mass for roof in roofs)) / surface if surface > 0 else 0.0
 
 
 def _kind(kinds, chosen, load):

@@ -29,16 +29,14 @@ def residual(history):
     """
     if not history.samples:
         return [], []
-    parts = [last_parts(history.time, values) for _, _, values in history.drifts()]
-    return [float(abs(averaged.mean())) for averaged, _ in parts], [float(np.ptp(moving) / 2) for _, moving in parts]
-
-
-def last_parts(time, values):
-    """(values that give the residual drift, values that give the amplitude) of the last part of a run."""
-    periods = last_periods(time, values)
-    if periods is not None:
-        return values[periods], values[periods]
-    return values[start_of(time, SHORT_WINDOW):], values[start_of(time, SLOW_WINDOW):]
+    residuals, amplitudes, time = [], [], history.time
+    for _, _, values in history.drifts():
+        periods = last_periods(time, values)
+        averaged = slice(start_of(time, SHORT_WINDOW), None) if periods is None else periods
+        moving = slice(start_of(time, SLOW_WINDOW), None) if periods is None else periods
+        residuals.append(float(abs(values[averaged].mean())))
+        amplitudes.append(float(np.ptp(values[moving]) / 2))
+    return residuals, amplitudes
 
 
 def last_periods(time, values):

@@ -56,18 +56,14 @@ class Joints(_ShortRepr):
         self.sheet = np.full(len(self.name), -1) if self.sheet is None else self.sheet
 
 
-def _no_elements():
-    return np.empty(0, int)
-
-
 @dataclass(repr=False)
 class Sheets(_ShortRepr):
     """As in /sheets."""
 
     type: list = field(default_factory=list)
     opening: list = field(default_factory=list)
-    low: np.ndarray = field(default_factory=_no_elements)
-    high: np.ndarray = field(default_factory=_no_elements)
+    low: np.ndarray = field(default_factory=lambda: np.empty(0, int))
+    high: np.ndarray = field(default_factory=lambda: np.empty(0, int))
 
 
 @dataclass(repr=False)

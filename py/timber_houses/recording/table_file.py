@@ -98,7 +98,11 @@ class _Inspection:
 
     def table(self, table, place, kind, *lengths):
         self.attributes(table, place, {})
-        _require_contiguous(table.get_create_plist(), place)
+        properties = table.get_create_plist()
+        if properties.get_external_count():
+            raise ValueError(f"{place}: its entries are in other files")
+        if properties.get_layout() != h5d.CONTIGUOUS or properties.get_nfilters():
+            raise ValueError(f"{place}: chunked, compressed or virtual")
         if table.get_space().get_simple_extent_type() != h5s.SIMPLE:
             raise ValueError(f"{place}: no table")
         shape, form = table.shape, table.get_type()
@@ -130,13 +134,6 @@ class _Inspection:
 def _require_no_others(count, place):
     if count:
         raise ValueError(f"{place or 'the file'}: {count} unknown entries or attributes")
-
-
-def _require_contiguous(properties, place):
-    if properties.get_external_count():
-        raise ValueError(f"{place}: its entries are in other files")
-    if properties.get_layout() != h5d.CONTIGUOUS or properties.get_nfilters():
-        raise ValueError(f"{place}: chunked, compressed or virtual")
 
 
 def _require_kind(form, kind, place, empty=False):

@@ -62,14 +62,20 @@ def town_frames(summary, lots):
     numbers = sorted({*range(0, len(longest.time), stride), len(longest.time) - 1})
     offsets = frames.starts([lot.kept for lot in placed])
     first_joints = frames.starts([lot.run.joints.name for lot in placed])
-    town = frames.Frames(f"Town {name}", name, name, longest.version, _elements(placed), _joints(placed, offsets),
-                         sheets=_sheets(placed, offsets))
+    sheets = [lot.run.sheets for lot in placed]
+    town = frames.Frames(f"Town {name}", name, name, longest.version, _elements(placed), _joints(placed, offsets))
+    town.sheets = frames.Sheets(
+        *([value for sheet in sheets for value in getattr(sheet, key)] for key in ("type", "opening")),
+        *(_numbers(placed, sheets, key, offsets) for key in ("low", "high")))
     town.time = [longest.time[k] for k in numbers]
     for k in numbers:
         states = [lot.state(k) for lot in placed]
         for key, values in zip(("position", "orientation", "load", "broken"), map(np.concatenate, zip(*states))):
             getattr(town, key).append(values)
-    town.motion = _motion(placed)
+    first = min((lot for lot in placed if lot.run.motion), key=lambda lot: lot.run.motion.start, default=None)
+    if first is not None:  # which the wave reaches first
+        motion, axes = first.run.motion, first.axes.T
+        town.motion = frames.Motion(motion.dt, motion.start, motion.acceleration @ axes, motion.displacement @ axes)
     town.summary = summary
     town.history = History(("time [s]",), np.empty((0, 1)))
     town.breaks = _breaks(placed, first_joints)
@@ -131,27 +137,10 @@ def _joints(lots, offsets):
     )
 
 
-def _sheets(lots, offsets):
-    """Sheets with the element numbers of the town."""
-    parts = [lot.run.sheets for lot in lots]
-    return frames.Sheets(*([value for part in parts for value in getattr(part, key)] for key in ("type", "opening")),
-                         **{key: _numbers(lots, parts, key, offsets) for key in ("low", "high")})
-
-
 def _numbers(lots, parts, key, offsets):
     """Element numbers of the lots' tables as those of the town."""
     return np.concatenate([np.searchsorted(lot.kept, getattr(part, key)) + offset
                            for lot, part, offset in zip(lots, parts, offsets)]).astype("i4")
-
-
-def _motion(lots):
-    """Motion of the lot that the wave reaches first, in the axes of the town; None without an earthquake."""
-    first = min((lot for lot in lots if lot.run.motion), key=lambda lot: lot.run.motion.start, default=None)
-    if first is None:
-        return None
-    motion = first.run.motion
-    axes = first.axes.T
-    return frames.Motion(motion.dt, motion.start, motion.acceleration @ axes, motion.displacement @ axes)
 
 
 def _breaks(lots, first_joints):

@@ -28,7 +28,10 @@ DISPLAY = ("base/colors.py", "scene/viewer.py", "run/progress.py", "recording/en
 def made_from(options):
     """Content of `made_from` in summary.json. options: RunOptions"""
     try:
-        files = of_files(_input_files(options))
+        records = [options.record] if options.record else []
+        records += [record for record, _ in following(options.then, "then")] if options.then else []
+        files = of_files([*filter(None, [options.town]), *house_files(house_path(options.house)),
+                          *(file for record in records for file in find_files(record))])
     except (InputError, OSError):
         files = None  # the run itself reports the fault
     return {"options": options.decisive(), "files": files, "package": package()}
@@ -46,14 +49,6 @@ def identity(origin):
     """{property: value} that a checkpoint and the run that continues it share. origin: `made_from` of the run"""
     shared = {name: value for name, value in content(origin).items() if name != "duration"}
     return {**shared, "package": origin["package"]}
-
-
-def _input_files(options):
-    """Town file, house file with those that it extends, and records."""
-    records = [options.record] if options.record else []
-    records += [record for record, _ in following(options.then, "then")] if options.then else []
-    return [*filter(None, [options.town]), *house_files(house_path(options.house)),
-            *(file for record in records for file in find_files(record))]
 
 
 @cache

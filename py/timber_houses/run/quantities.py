@@ -3,9 +3,9 @@
 
 Element k of the HouseModel is body k of the scene, joint k is joint k of the JointEngine and of the Sampler.
 """
+from collections import namedtuple
 from dataclasses import dataclass
 from operator import attrgetter
-from typing import NamedTuple
 
 import numpy as np
 import yade.wrapper as yw
@@ -77,41 +77,14 @@ def _shears(table, name):
 # --- joints and columns -----------------------------------------------------------------------------------------------
 
 
-class JointRow(NamedTuple):
-    """Row of joints.csv. per: 'point' or 'joint'; broken: number of springs"""
-
-    name: str
-    kind: str
-    storey: str
-    side: str
-    utilisation: float
-    pull: float
-    shear: float
-    opening: float
-    strength: float
-    per: str
-    broken: int
-    state: str
-
-
-class ColumnRow(NamedTuple):
-    """Row of columns.csv."""
-
-    name: str
-    structure: str
-    storey: int
-    east: float
-    north: float
-    uplift: float
-    pull: float
-    utilisation: float
-    state: str
-
-
-JOINT_HEADER = (*("joint", "kind", "storey", "side", "utilisation [-]", "pull [N]", "shear [N]", "opening [m]"),
-                *("strength [N]", "strength of", "broken springs [-]", "state"))
-COLUMN_HEADER = ("column", "structure", "storey", "east [m]", "north [m]", "uplift [m]", "pull [N]", "utilisation [-]",
-                 "state")
+JOINT_HEADER = {"name": "joint", "kind": "kind", "storey": "storey", "side": "side", "utilisation": "utilisation [-]",
+                "pull": "pull [N]", "shear": "shear [N]", "opening": "opening [m]", "strength": "strength [N]",
+                "per": "strength of", "broken": "broken springs [-]", "state": "state"}
+COLUMN_HEADER = {"name": "column", "structure": "structure", "storey": "storey", "east": "east [m]",
+                 "north": "north [m]", "uplift": "uplift [m]", "pull": "pull [N]", "utilisation": "utilisation [-]",
+                 "state": "state"}
+"""{attribute of a row: column} of joints.csv and columns.csv."""
+JointRow, ColumnRow = namedtuple("JointRow", JOINT_HEADER), namedtuple("ColumnRow", COLUMN_HEADER)
 
 
 def joint_rows(observed, peaks):
@@ -170,8 +143,8 @@ class Tables:
     def write(self, folder):
         """Write storeys.csv, joints.csv, columns.csv; returns their paths. Raises OSError."""
         self.storeys.write(folder / quantities.NAME)
-        write_text(folder / JOINTS, csv_text(JOINT_HEADER, self.joints))
-        write_text(folder / COLUMNS, csv_text(COLUMN_HEADER, self.columns))
+        write_text(folder / JOINTS, csv_text(JOINT_HEADER.values(), self.joints))
+        write_text(folder / COLUMNS, csv_text(COLUMN_HEADER.values(), self.columns))
         return [folder / name for name in NAMES]
 
 

@@ -190,7 +190,9 @@ class Run(Stoppable):
             return
         if O.iter % self.chunk == 0:
             self.take(O.time)
-        if self.signal or O.iter == self.steps - 1 or self._checkpoint_due():
+        every = max(1, round(self.options.checkpoint / self.scenario.dt))
+        is_due = self.options.checkpoint > 0 and O.iter // every > self.last_saved // every
+        if self.signal or O.iter == self.steps - 1 or is_due:
             self.save()
         if self.signal:
             raise Interrupted(self.signal, O.time)
@@ -215,29 +217,20 @@ class Run(Stoppable):
                 O.step()
         self.wall_s += time.perf_counter() - since
 
-    def _checkpoint_due(self):
-        if self.options.checkpoint == 0:
-            return False
-        every = max(1, round(self.options.checkpoint / self.scenario.dt))
-        return O.iter // every > self.last_saved // every
-
     def save(self):
         """Save a checkpoint, unless switched off. Frames are saved first: those after a checkpoint can be dropped."""
-        if self.options.checkpoint > 0:
-            with os_errors(self._unsaved):
-                if self.recorder:
-                    self.recorder.save()
-                self.observer.read_samples()
-                progress = {"wall_s": self.wall_s, "samples": self.samples.save(self.observer),
-                            **self.observer.progress()}
-                checkpoint.save(self.checkpoint_path, self.identity, progress)
-            self.last_saved = O.iter
-
-    def _unsaved(self, fault):
+        if self.options.checkpoint == 0:
+            return
         remedy = ("the previous checkpoint is intact, continue with --resume" if self.checkpoint_path.exists()
                   else "there is no earlier one")
-        stop = f"the checkpoint cannot be written ({fault}); the run stops at {O.time:.2f} s, {remedy}"
-        return f"{self.options.folder}: {stop}"
+        with os_errors(lambda fault: f"{self.options.folder}: the checkpoint cannot be written ({fault}); the run stops"
+                                     f" at {O.time:.2f} s, {remedy}"):
+            if self.recorder:
+                self.recorder.save()
+            self.observer.read_samples()
+            progress = {"wall_s": self.wall_s, "samples": self.samples.save(self.observer), **self.observer.progress()}
+            checkpoint.save(self.checkpoint_path, self.identity, progress)
+        self.last_saved = O.iter
 
     # --- results ------------------------------------------------------------------------------------------------------
 

@@ -148,7 +148,12 @@ class TownRun(Stoppable):
     @property
     def summary(self):
         """TownSummary."""
-        results = {lot.name: (run.summary, lot.axes, result_of(lot, run)) for lot, run in self.lots}
+        results = {}
+        for lot, run in self.lots:
+            outlines = [part.round(3).tolist() for part in lot.outlines(run.model)]
+            result = {"en": sentence(run.summary), "ja": japanese.result(run.summary)}
+            one = LotResult(lot.name, run.summary.model, run.summary.verdict, outlines, result)
+            results[lot.name] = run.summary, lot.axes, one
         return recording.summary(self.town.name, results, self.record)
 
     def table(self):
@@ -168,13 +173,6 @@ COLUMNS = ("lot", "house", "x [m]", "y [m]", "rotation [degrees]", "snow [m]", "
            "peak drift [-]", "residual drift [-]", "tilt [s]", "collapse [s]", "broken joints", "joints",
            "broken wall sheets", "wall sheets", "computing time [s]", "sentence")
 """Of houses.csv."""
-
-
-def result_of(lot, run):
-    """LotResult of a Lot and its Run."""
-    outlines = [part.round(3).tolist() for part in lot.outlines(run.model)]
-    result = {"en": sentence(run.summary), "ja": japanese.result(run.summary)}
-    return LotResult(lot.name, run.summary.model, run.summary.verdict, outlines, result)
 
 
 @contextmanager

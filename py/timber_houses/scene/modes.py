@@ -68,7 +68,9 @@ def springs(initial=False):
     arm, stiffness = values[:, :6].reshape(-1, 2, 3), values[:, 9:11]
     engine = find_engine(yw.JointEngine)
     if initial and engine is not None:
-        shares = np.array([_initial_share(joint) for joint in engine.joints])[joint_of_springs(engine.joints)]
+        lines = [joint.envelope[0] if joint.law == "wall" else (1.0, np.inf) for joint in engine.joints]
+        shares = np.array([min(1.0, force / stretch / joint.kn) for (stretch, force), joint
+                           in zip(lines, engine.joints)])[joint_of_springs(engine.joints)]
         stiffness = stiffness * np.concatenate([np.ones(len(stiffness) - len(shares)), shares])[:, None]
     return Springs(np.frombuffer(pairs, "i4").reshape(-1, 2), arm, values[:, 6:9], stiffness, values[:, 11:])
 
@@ -76,14 +78,6 @@ def springs(initial=False):
 def joint_of_springs(joints):
     """Index of the joint of each unbroken spring; in Springs they stand behind those of the contacts."""
     return np.repeat(np.arange(len(joints)), [len(joint.broken) - sum(joint.broken) for joint in joints])
-
-
-def _initial_share(joint):
-    """Stiffness of a TimberJoint at no drift over that with which it unloads: of walls, which are elastic there. [-]"""
-    if joint.law != "wall":
-        return 1.0
-    stretch, force = joint.envelope[0]
-    return min(1.0, force / stretch / joint.kn)
 
 
 @between_steps()
@@ -99,7 +93,11 @@ def natural_modes(share=0.05, bodies=None, initial=False):
     if not free:
         return []
     rows = {b.id: k for k, b in enumerate(free)}
-    K, M = stiffness_matrix(linearised, rows, len(free)), mass_matrix(free)
+    blocks = []  # masses [kg] and inertias in the world frame [kg m2]
+    for b in free:
+        axes = np.array(b.state.ori.toRotationMatrix())
+        blocks += [b.state.mass * np.eye(3), axes @ np.diag(b.state.inertia) @ axes.T]
+    K, M = stiffness_matrix(linearised, rows, len(free)), sparse.block_diag(blocks, "csc")
     omega2, vectors = _vibrations(K, M)
     ground = np.tile(np.eye(6)[:, :3], (len(free), 1))  # unit translations
     modes = []
@@ -158,15 +156,6 @@ def _by_convention(vectors, momentum):
     return vectors @ np.linalg.qr(shares[:, directions], mode="complete")[0]
 
 
-def mass_matrix(free):
-    """(6n, 6n) sparse block-diagonal matrix of masses [kg] and of inertias in the world frame [kg m2]."""
-    blocks = []
-    for b in free:
-        axes = np.array(b.state.ori.toRotationMatrix())
-        blocks += [b.state.mass * np.eye(3), axes @ np.diag(b.state.inertia) @ axes.T]
-    return sparse.block_diag(blocks, "csc")
-
-
 def stiffness_matrix(linearised, rows, count):
     """(6 count, 6 count) sparse symmetric matrix of Springs. rows: {body id: number of the free body}"""
     normal = linearised.normal[:, :, None] * linearised.normal[:, None, :]
@@ -183,7 +172,12 @@ def stiffness_matrix(linearised, rows, count):
     for e, sign in ((0, -1), (1, 1)):
         blocks.append(_geometric(linearised.arm[:, e], sign * linearised.force))
         places.append(number[:, [e, e]])
-    return _assembled(np.concatenate(blocks), np.concatenate(places), count)
+    blocks, places = np.concatenate(blocks), np.concatenate(places)
+    free = (places >= 0).all(1)  # without blocks of fixed bodies
+    blocks, places, inner = blocks[free], places[free], np.arange(6)
+    row = np.broadcast_to(6 * places[:, 0, None, None] + inner[:, None], blocks.shape)
+    column = np.broadcast_to(6 * places[:, 1, None, None] + inner, blocks.shape)
+    return sparse.coo_matrix((blocks.ravel(), (row.ravel(), column.ravel())), shape=(6 * count, 6 * count)).tocsc()
 
 
 def _geometric(arm, force):
@@ -192,13 +186,3 @@ def _geometric(arm, force):
     outer, along = arm[:, :, None] * force[:, None, :], np.einsum("pi,pi->p", arm, force)
     block[:, 3:, 3:] = along[:, None, None] * np.eye(3) - (outer + outer.transpose(0, 2, 1)) / 2
     return block
-
-
-def _assembled(blocks, places, count):
-    """Sparse matrix of (P, 6, 6) blocks at block places (P, 2), without those of fixed bodies (-1)."""
-    free = (places >= 0).all(1)
-    blocks, places = blocks[free], places[free]
-    inner = np.arange(6)
-    row = np.broadcast_to(6 * places[:, 0, None, None] + inner[:, None], blocks.shape)
-    column = np.broadcast_to(6 * places[:, 1, None, None] + inner, blocks.shape)
-    return sparse.coo_matrix((blocks.ravel(), (row.ravel(), column.ravel())), shape=(6 * count, 6 * count)).tocsc()

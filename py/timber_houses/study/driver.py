@@ -191,16 +191,13 @@ class _Process:
     def outcome(self):
         """Record how the run ended; returns one line."""
         with self.lock:
-            return self._recorded()
-
-    def _recorded(self):
-        if self.child is None or self.child.returncode and is_locked(self.task.folder):
-            return "skipped: another process computes this run"
-        ended_by = _signal(self.child.returncode)
-        if ended_by in STOPS:
-            return f"stopped by {ended_by}; the next start continues this run"
-        error = f"crashed ({ended_by}); see {self.task.folder / LOG}" if ended_by else self._error()
-        record_end(self.task.folder, error)
+            if self.child is None or self.child.returncode and is_locked(self.task.folder):
+                return "skipped: another process computes this run"
+            ended_by = _signal(self.child.returncode)
+            if ended_by in STOPS:
+                return f"stopped by {ended_by}; the next start continues this run"
+            error = f"crashed ({ended_by}); see {self.task.folder / LOG}" if ended_by else self._error()
+            record_end(self.task.folder, error)
         if error:
             return f"failed: {error}"
         again = " again (other options, files or package)" if self.outdated else ""

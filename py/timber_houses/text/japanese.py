@@ -162,14 +162,6 @@ def _damage(facts):
     return "、".join([*(text.format(number) for number, text in counts if number), f"最大層間変形角 {below(facts.peak_drift)}"])
 
 
-def _roof(facts):
-    """Structure, other than the main one, and side of a roof, as far as they are known."""
-    if facts.structure:
-        yield structure_name(facts.structure)
-    if facts.side in SIDES:
-        yield SIDES[facts.side]
-
-
 def level(facts):
     limit = passed(facts.drift)
     return f"層間変形角が {ratio(limit.drift)} を超える（{LEVELS[limit.name]}）"
@@ -182,7 +174,8 @@ PHRASES = {
     "own_weight": own_weight,
     "structure_fallen": lambda facts: f"{structure_name(facts.structure)}が倒れた",
     "columns_lost": lambda facts: f"柱 {facts.total} 本のうち {facts.number} 本が倒れるか外れた",
-    "snow_fallen": lambda facts: "".join(f"{place}の" for place in _roof(facts)) + "屋根の雪が落ちる",
+    "snow_fallen": lambda facts: (f"{structure_name(facts.structure)}の" * bool(facts.structure)
+                                  + f"{SIDES.get(facts.side)}の" * (facts.side in SIDES) + "屋根の雪が落ちる"),
     "shaking_begins": lambda facts: "揺れの始まり",
     "strongest_shaking": lambda facts: "最大の揺れ",
     "level": level,

@@ -68,7 +68,9 @@ def _row(cells, path, number):
               if name in cells}
     changes = {name: values.pop(name) for name in HOUSE_CHANGES if name in values}
     changes |= {name: tuple(filter(None, text.split(";"))) for name, text in changes.items() if isinstance(text, str)}
-    values["house"] = _house(values["house"], path.parent)
+    house = path.parent / values["house"]
+    if "/" in values["house"] or house.suffix in (".yaml", ".yml") or is_file(house):  # no shipped house
+        values["house"] = str(house)
     calm = values.get("record") == NO_EARTHQUAKE
     if calm and "seed" in values:
         raise BatchError(f"{place}, column seed: the column record is {NO_EARTHQUAKE}, without an earthquake")
@@ -80,12 +82,6 @@ def _row(cells, path, number):
                           f"the column record is {NO_EARTHQUAKE}")
     return Row(RunOptions(quake=not calm, source=source, **values), HouseChanges(**changes),
                cells.get(DESCRIPTION, ""), place, number)
-
-
-def _house(name, folder):
-    """Name of a shipped house, or path of a house file; relative paths are relative to the table's folder."""
-    is_path = "/" in name or name.endswith((".yaml", ".yml")) or is_file(folder / name)
-    return str(folder / name) if is_path else name
 
 
 def _beside(record, folder):

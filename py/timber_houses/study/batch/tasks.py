@@ -80,7 +80,7 @@ def _located(row):
 
 
 @lru_cache(maxsize=256)
+@noted()
 def _read_record(options):
     """Read and process a recorded ground motion; its warnings become notes, once. Raises RecordError."""
-    with noted():
-        options.motion(options.dt)
+    options.motion(options.dt)

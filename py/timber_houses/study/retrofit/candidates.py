@@ -71,15 +71,14 @@ def fittings(description, model):
     """Double fittings in each group of joints that occurs and can break."""
     groups, types = description.data["joints"], description.data["joint_types"]
     kinds = {joint.kind for joint in model.joints if math.isfinite(joint.strength)}
-    return [Candidate(f"double_{name}", f"double fittings: {name.replace('_', ' ')}",
-                      HouseChanges(set=_doubled(name, group)))
-            for name, group in groups.items()
-            if group["kind"] in kinds and math.isfinite(types[group["type"]]["strength"])]
-
-
-def _doubled(name, group):
-    """Settings: twice the number of fittings, and the strength where the group has its own."""
-    return tuple(f"joints.{name}.{key}={2 * group[key]:g}" for key in ("number", "strength") if group[key] is not None)
+    found = []
+    for name, group in groups.items():
+        if group["kind"] in kinds and math.isfinite(types[group["type"]]["strength"]):
+            doubled = tuple(f"joints.{name}.{key}={2 * group[key]:g}" for key in ("number", "strength")
+                            if group[key] is not None)
+            found.append(Candidate(f"double_{name}", f"double fittings: {name.replace('_', ' ')}",
+                                   HouseChanges(set=doubled)))
+    return found
 
 
 def in_bays(model, names):
