@@ -55,12 +55,8 @@ def check_ranges(values, name, error):
             raise error(f"{name(each.name)} {shown(value)}: must be one of {', '.join(choices)};"
                         f" {each.metadata['help']}")
         if low is not None and not low <= value <= high:
-            raise error(f"{name(each.name)} {_number(value)}: must be {_range(value, low, high)};"
-                        f" {each.metadata['help']}")
-
-
-def _number(value):
-    return shown(value) if isinstance(value, int) else f"{value:g}"
+            number = shown(value) if isinstance(value, int) else f"{value:g}"
+            raise error(f"{name(each.name)} {number}: must be {_range(value, low, high)}; {each.metadata['help']}")
 
 
 def _range(value, low, high):
@@ -115,12 +111,12 @@ def read_keywords(kind, function, keywords, instead={}):
     for name in keywords:
         if name not in names:
             raise TypeError(f"{function}() has no option '{name}'; {instead.get(name) or nearest(name, names)}")
-    return {name: _keyword(options(kind)[name], value, f"{function}: {name}") for name, value in keywords.items()
-            if value is not None}
-
-
-def _keyword(each, value, name):
-    noun, types = KINDS[each.metadata["kind"]]
-    if not isinstance(value, types):
-        raise TypeError(f"{name} {shown(value)}: must be {noun}")
-    return read(each, str(value), name) if isinstance(value, (str, Path)) else each.metadata["kind"](value)
+    values = {}
+    for name, value in ((name, value) for name, value in keywords.items() if value is not None):
+        each, place = options(kind)[name], f"{function}: {name}"
+        noun, types = KINDS[each.metadata["kind"]]
+        if not isinstance(value, types):
+            raise TypeError(f"{place} {shown(value)}: must be {noun}")
+        is_text = isinstance(value, (str, Path))
+        values[name] = read(each, str(value), place) if is_text else each.metadata["kind"](value)
+    return values

@@ -12,7 +12,9 @@ def free_bays(description):
     """
     names = []
     for structure, storey in _storeys(description):
-        taken = _braced(structure, storey) | _walled(structure, storey, only_open=True)
+        lines = in_storey(structure.table["braces"]["lines"], storey)
+        taken = {(line["along"], at, min(run), max(run)) for line in lines for at in line["at"] for run in line["runs"]}
+        taken |= _walled(structure, storey, only_open=True)
         for line, (along, at, low, high) in _bays(structure, storey):
             if (along, at, low, high) not in taken:
                 foot, head = (low, high) if low + high <= line["from"] + line["to"] else (high, low)
@@ -47,12 +49,6 @@ def _bays(structure, storey):
         for at in line["at"]:
             nodes = [node for node in nodes_on_line(plan, along, at) if line["from"] <= node <= line["to"]]
             yield from ((line, (along, at, low, high)) for low, high in zip(nodes, nodes[1:]))
-
-
-def _braced(structure, storey):
-    """{(along, at, lower node, higher node)} of the bays that have a brace in this storey."""
-    lines = in_storey(structure.table["braces"]["lines"], storey)
-    return {(line["along"], at, min(run), max(run)) for line in lines for at in line["at"] for run in line["runs"]}
 
 
 def _walled(structure, storey, only_open=False):

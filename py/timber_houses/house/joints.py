@@ -36,7 +36,8 @@ def find_joints(elements, data, named=None):
     for pair, rule in named.items():
         if pair not in used:
             _report_apart(elements, pair, rule)
-    faces = [_end_face(a, key, contact) for a, _, key, contact in contacts]
+    faces = [(a.name, key, *np.round(contact[1], 3)) if _is_end(a, contact[1]) else None
+             for a, _, key, contact in contacts]  # of a column's or brace's end that a rule joins
     areas = Counter()
     for face, (*_, contact) in zip(faces, contacts):
         areas[face] += contact[2]
@@ -81,11 +82,6 @@ def _report_apart(elements, pair, rule):
          f" {1e3 * gap:.3g} mm apart, or touch by an edge: let an end lie flush on the other member, or state a gap")
 
 
-def _end_face(a, name, contact):
-    """Key of the face of a column's or brace's end that a rule joins; None elsewhere."""
-    return (a.name, name, *np.round(contact[1], 3)) if _is_end(a, contact[1]) else None
-
-
 def _is_end(a, normal):
     """Whether a face of an element is that of an end. Columns of two wings have joints at their sides."""
     return a.kind in END_JOINED and (a.kind != "column" or abs(normal[2]) > LYING)
@@ -122,13 +118,9 @@ def spring_points(polygon, normal):
     Of more than four corners, the four with the largest area; of three, these and the middle of the longest side.
     """
     if len(polygon) == 3:
-        return _with_midpoint(polygon)
+        following = np.roll(polygon, -1, 0)
+        longest = int(np.argmax(np.round(np.linalg.norm(following - polygon, axis=1), 9)))
+        return np.insert(polygon, longest + 1, (polygon[longest] + following[longest]) / 2, 0)
     flat = polygon @ np.array(plane_axes(normal)).T
     chosen = max(combinations(range(len(polygon)), 4), key=lambda four: round(polygon_area(flat[list(four)]), 9))
     return polygon[list(chosen)]
-
-
-def _with_midpoint(triangle):
-    following = np.roll(triangle, -1, 0)
-    longest = int(np.argmax(np.round(np.linalg.norm(following - triangle, axis=1), 9)))
-    return np.insert(triangle, longest + 1, (triangle[longest] + following[longest]) / 2, 0)

@@ -22,7 +22,12 @@ AXES = (("N-S", 1, "a lean"), ("E-W", 0, "a lean"), ("up-down", 2, "a change of 
 
 def constant_note(motion, scale=1.0):
     """'constant part of 60 gal N-S (17 % of the peak) acts like a lean of 6.12 %; ...', or ''. scale: factor [-]"""
-    texts = max((list(_texts(samples, scale)) for samples in _pieces(motion)), key=len, default=[])
+    pieces = [motion.acceleration]  # of a sequence those of each motion
+    if motion.parts:
+        ranges = ((round(part.start / motion.dt), round((part.start + part.duration) / motion.dt))
+                  for part in motion.parts)
+        pieces = [motion.acceleration[first:end] for first, end in ranges if end > first]
+    texts = max((list(_texts(samples, scale)) for samples in pieces), key=len, default=[])
     return f"constant part of {', '.join(texts)}; {REMEDY}" if texts else ""
 
 
@@ -32,14 +37,6 @@ def warn_of_constant_part(motion):
     if note:
         warnings.warn(f"{motion.name}: {note}", RecordWarning, stacklevel=3)
     return motion
-
-
-def _pieces(motion):
-    """Accelerations of the motion, or of each motion of a sequence. [(n, 3)]"""
-    if not motion.parts:
-        return [motion.acceleration]
-    ranges = ((round(part.start / motion.dt), round((part.start + part.duration) / motion.dt)) for part in motion.parts)
-    return [motion.acceleration[first:end] for first, end in ranges if end > first]
 
 
 def _texts(samples, scale):

@@ -55,7 +55,10 @@ def _at2(path, lines, units, stated):
     """PEER AT2 and Peknold's variant: one channel, in g unless the header states another unit."""
     count, dt, first, where = _at2_header(path, lines)
     header = lines[:first]
-    _refuse_other_quantity(path, header)
+    for number, line in enumerate(header, 1):
+        quantity, _, rest = line.strip().lower().partition(" ")
+        if quantity in ("velocity", "displacement") and rest.startswith("time"):
+            raise RecordError(f"{path}:{number}: {quantity} record; it must be acceleration")
     factor = _stated_unit(path, [unit for unit in map(_unit_in, header) if unit], units)
     values = numbers(path, lines[first:], first + 1)
     require_count(path, len(values), whole(count, f"{where}: NPTS"), "NPTS", PLAIN_CSV)
@@ -69,10 +72,11 @@ def _at2_header(path, lines):
     for number, line in head:
         if pair := _count_and_step(line):
             return *pair, number, f"{path}:{number}"
-    for number, line in head:
-        if pair := _peknold_count_and_step(line):
+    for number, line in head:  # 'n points at equal spacing of s sec'
+        before, phrase, after = line.lower().partition(_PEKNOLD)
+        if phrase and before.strip() and after.strip():
             first = next((i for i, row in enumerate(lines) if _is_numeric(row)), len(lines))
-            return *pair, first, f"{path}:{number}"
+            return before.split()[-1], after.split()[0], first, f"{path}:{number}"
     number = next((number for number, line in head if {"npts", "dt"} <= set(_words(line, ",=:"))), None)
     absent = f"without 'NPTS= n, DT= s' or 'n s NPTS, DT' in {AT2_HEADER_LINES} lines"
     problem = absent if number is None else "with NPTS and DT in another form"
@@ -97,12 +101,6 @@ def _count_and_step(line):
     return (words[npts + 1], words[dt + 1].rstrip("second")) if dt >= npts + 2 and dt + 1 < len(words) else None
 
 
-def _peknold_count_and_step(line):
-    """(n, dt) as text from 'n points at equal spacing of s sec', else None."""
-    before, phrase, after = line.lower().partition(_PEKNOLD)
-    return (before.split()[-1], after.split()[0]) if phrase and before.strip() and after.strip() else None
-
-
 def _is_numeric(line):
     try:
         return bool([float(word) for word in line.split()])
@@ -119,13 +117,6 @@ def _unit_in(line):
                     else words[i + 1 :])
             return rest[0].rstrip(".") if rest and rest[0][0].isalpha() else None
     return None
-
-
-def _refuse_other_quantity(path, header):
-    for number, line in enumerate(header, 1):
-        quantity, _, rest = line.strip().lower().partition(" ")
-        if quantity in ("velocity", "displacement") and rest.startswith("time"):
-            raise RecordError(f"{path}:{number}: {quantity} record; it must be acceleration")
 
 
 def _stated_unit(path, in_file, stated):

@@ -217,21 +217,16 @@ def oscillator(acceleration, dt, period, damping=0.05):
     """
     omega = 2.0 * np.pi / period
     s = complex(-damping * omega, omega * np.sqrt(1.0 - damping**2))
-    growth = np.exp(s * dt)
-    late = dt * _phi2(s * dt)
+    growth, z = np.exp(s * dt), s * dt
+    # (exp(z) - 1 - z) / z^2; by its series where cancellation would cost more than 1e-12 of it
+    late = dt * (1.0 / 2.0 + z / 6.0 + z**2 / 24.0 + z**3 / 120.0 + z**4 / 720.0 + z**5 / 5040.0 if abs(z) < 1e-2
+                 else (growth - 1.0 - z) / z**2)
     early = (growth - 1.0) / s - late
     forcing = np.zeros(acceleration.shape, dtype=complex)
     forcing[1:] = -(early * acceleration[:-1] + late * acceleration[1:])
     y = scipy.signal.lfilter([1.0], [1.0, -growth], forcing, axis=0)
     displacement_, velocity_ = y.imag / s.imag, (s * y).imag / s.imag
     return displacement_, -(2.0 * damping * omega * velocity_ + omega**2 * displacement_)
-
-
-def _phi2(z):
-    """(exp(z) - 1 - z) / z^2; by its series where cancellation would cost more than 1e-12 of it."""
-    if abs(z) < 1e-2:
-        return 1.0 / 2.0 + z / 6.0 + z**2 / 24.0 + z**3 / 120.0 + z**4 / 720.0 + z**5 / 5040.0
-    return (np.exp(z) - 1.0 - z) / z**2
 
 
 def _oscillator_peaks(columns, dt, period, damping):

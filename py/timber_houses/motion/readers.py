@@ -89,8 +89,12 @@ def read_unchecked(record, component=None, units=None, angle=0.0, trim_to_shorte
                       stacklevel=2)
     stems = [path.stem for path in paths]
     name = stems[0] if len(stems) == 1 else commonprefix(stems).rstrip("-_.") or stems[0]
+    times = {channel.begins for channel in channels} - {None}
+    if len(times) > 1:
+        stated = ", ".join(f"{c.path.name}: {c.begins}" for c in channels)
+        raise RecordError(f"components begin at different times ({stated}); they must be of one recording")
     source = one_line(_provenance(channels, directions))
-    return turned(GroundMotion(dt, acceleration, one_line(name), source, _beginning(channels)), angle)
+    return turned(GroundMotion(dt, acceleration, one_line(name), source, next(iter(times), None)), angle)
 
 
 def find_files(record):
@@ -173,15 +177,6 @@ def _aligned(channels, trim_to_shortest):
         raise RecordError(f"components of different length ({stated}); cut them at the shortest (--shortest), or make"
                           " them equal")
     return dt, np.column_stack([channel.values[: min(lengths)] for channel in channels])
-
-
-def _beginning(channels):
-    """Date and time of the first samples, or None; components that begin at different times are refused."""
-    times = {channel.begins for channel in channels} - {None}
-    if len(times) > 1:
-        stated = ", ".join(f"{c.path.name}: {c.begins}" for c in channels)
-        raise RecordError(f"components begin at different times ({stated}); they must be of one recording")
-    return times.pop() if times else None
 
 
 def _to_house_axes(record, values, directions):
