@@ -16,8 +16,7 @@ from pathlib import Path
 
 RECORD_MARK = b"@timber-build"
 MODULE = "_yade_timber"
-FASTER = "x86_64_v3"
-"""Folder of a second module for processors with AVX2 (Debian package)."""
+FASTER = "x86_64_v3"  # folder of a second module for processors with AVX2 (Debian package)
 REMEDY = "Rerun scripts/setup to build yade-timber for this YADE."
 
 

@@ -15,8 +15,7 @@ import tempfile
 from contextlib import contextmanager
 from pathlib import Path
 
-PART = ".part-"
-"""Start of temporary names."""
+PART = ".part-"  # start of temporary names
 
 
 @contextmanager

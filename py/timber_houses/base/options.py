@@ -13,10 +13,8 @@ FLAGS = {"yes": True, "true": True, "1": True, "no": False, "false": False, "0":
 KINDS = {int: ("a whole number", Integral), float: ("a number", Real), bool: ("yes or no", bool),
          str: ("a text", (str, Path)), Path: ("a path", (str, Path))}
 """Kind of an option: its name in messages, and the Python types that a keyword may have."""
-HIDDEN = "hidden"
-"""Group of options that the help leaves out: of studies of this package."""
-BY_SCRIPT = ("house", "quake", "snow")
-"""Options that a run script decides, unless it is house.py or town.py."""
+HIDDEN = "hidden"  # group of options that the help leaves out: of studies of this package
+BY_SCRIPT = ("house", "quake", "snow")  # options that a run script decides, unless it is house.py or town.py
 
 
 def option(kind, about, metavar=None, low=None, high=None, default=None, choices=(), group="motion", decides=True):
@@ -65,9 +63,6 @@ def _range(value, low, high):
     return f">= {low:g}" + (f" and at most {high:.10g}" if value > high else "")
 
 
-# --- texts ------------------------------------------------------------------------------------------------------------
-
-
 def read(each, text, name):
     """Value of an option from a text. name: its name in messages. Raises RunError."""
     kind = each.metadata["kind"]
@@ -100,9 +95,6 @@ def words(values, named):
     passed = {name: value for name, value in values.items() if name not in (BY_SCRIPT if named else ("house",))}
     return [*([] if named else [values["house"]]),
             *(command_option(name) + ("" if value is True else f"={value}") for name, value in passed.items())]
-
-
-# --- keywords ---------------------------------------------------------------------------------------------------------
 
 
 def read_keywords(kind, function, keywords, instead={}):

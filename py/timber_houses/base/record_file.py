@@ -10,12 +10,9 @@ from contextlib import contextmanager
 
 from .errors import RunError
 
-MAX_SIZE = 2_000_000_000
-"""Largest file of binary tables. [bytes] A house of 500 elements for 600 s has 250 MB."""
-MAX_TABLE = 128_000_000
-"""Largest table of text. [bytes] A history of 600 s has 20 MB."""
-MAX_JSON = 32_000_000
-"""Longest text of JSON. [bytes]"""
+MAX_SIZE = 2_000_000_000  # largest file of binary tables. [bytes] A house of 500 elements for 600 s has 250 MB.
+MAX_TABLE = 128_000_000  # largest table of text. [bytes] A history of 600 s has 20 MB.
+MAX_JSON = 32_000_000  # longest text of JSON. [bytes]
 
 
 def open_record(path, flags=os.O_RDONLY, limit=MAX_SIZE):

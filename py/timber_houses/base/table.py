@@ -37,8 +37,7 @@ def csv_text(header, rows):
     return content if content.isascii() else f"\ufeff{content}"
 
 
-FORMULA = ("=", "+", "-", "@", "\t", "\r")
-"""Beginnings of a cell that spreadsheets evaluate."""
+FORMULA = ("=", "+", "-", "@", "\t", "\r")  # beginnings of a cell that spreadsheets evaluate
 
 
 def inert(value):

@@ -14,13 +14,11 @@ from .geometry import SAME, SNAP_DIGITS, cross, halfspace_vertices, polygon_area
 from .parser import Table
 from .schema import fail
 
-SHORTEST = 1e-3
-"""Distance of the ends of a bar, at least. [m]"""
+SHORTEST = 1e-3  # distance of the ends of a bar, at least. [m]
 
 OBLIQUE = 0.1
 """Least component along a bar of the normal of a plane that replaces its end face: up to 84 degrees from square. [-]"""
-WARPED = 1e-3
-"""Largest distance of a plate's corners from their plane. [m]"""
+WARPED = 1e-3  # largest distance of a plate's corners from their plane. [m]
 LEVEL = np.array([0.0, 0.0, 1.0])
 
 

@@ -18,8 +18,7 @@ from .wall_quantity import requirement
 from .wall_types import RATED_DRIFT
 from .weight import floor_area
 
-DIRECTIONS = {"ew": 0, "ns": 1}
-"""Direction and the index of its axis."""
+DIRECTIONS = {"ew": 0, "ns": 1}  # direction and the index of its axis
 
 
 @dataclass(frozen=True)

@@ -16,8 +16,7 @@ from .model import Element
 from .plan import floor_plan
 from .schema import fail
 
-STEP = 0.5
-"""Least distance of levels, and of columns' feet that do not stand on one level. [m]"""
+STEP = 0.5  # least distance of levels, and of columns' feet that do not stand on one level. [m]
 SLABS = ("floor", "roof")
 
 
@@ -66,8 +65,6 @@ class Frame:
     def further_joints(self, _elements, _joints, _data, _level):
         return []
 
-    # --- members ------------------------------------------------------------------------------------------------------
-
     def _add(self, name, entry):
         """Elements of all copies of a part."""
         copies, is_plate = self.parts[name], name in self.table["plates"]
@@ -86,8 +83,6 @@ class Frame:
     def _element(self, label, kind, vertices, material, where, **more):
         return Element(f"{FRAME}.{label}", kind, vertices, material, self.materials[material]["density"], group=FRAME,
                        source=where, **more)
-
-    # --- storeys ------------------------------------------------------------------------------------------------------
 
     def _given_levels(self):
         storeys = self.table["storeys"]

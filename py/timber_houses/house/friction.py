@@ -2,8 +2,7 @@
 """Friction of material pairs. A description must have YADE's form: the smaller coefficient of both materials."""
 from .errors import HouseError
 
-DEFAULT = 0.5
-"""Coefficient of a material whose pair with itself is not in the file, that of the class ElementMat. [-]"""
+DEFAULT = 0.5  # coefficient of a material whose pair with itself is not in the file, that of the class ElementMat. [-]
 
 
 def own_coefficient(name, law, pairs):

@@ -13,10 +13,8 @@ COMMON = ("base", "paper", "plated", "frame", "cad")
 """Shipped files that houses extend: materials and joints; frame of the paper's houses; joints with metal plates; joints
 of frames of single members, and from CAD."""
 BTLX = ".btlx"
-SUFFIXES = (".yaml", ".yml", BTLX)
-"""Of house files that another file names."""
-ADDS = "+"
-"""Ending of a key whose list is added to the inherited one."""
+SUFFIXES = (".yaml", ".yml", BTLX)  # of house files that another file names
+ADDS = "+"  # ending of a key whose list is added to the inherited one
 SHIPPED = Path(__file__).resolve().parents[1] / "data" / "houses"
 
 
@@ -148,8 +146,7 @@ def added(items, more, where, name):
     return Items(sum(map(list, both), []), where, sum((entry.entries for entry in both), []))
 
 
-_noted: set = set()
-"""Replacements that were noted: a run reads its house file several times."""
+_noted: set = set()  # replacements that were noted: a run reads its house file several times
 
 
 def note_replaced(items, value, where, name):

@@ -9,8 +9,7 @@ from .joint_values import kinds_of
 from .joints import near_pairs
 from .layout import FRAME
 
-NEAR = 0.02
-"""Distance up to which two faces may be meant to touch. [m]"""
+NEAR = 0.02  # distance up to which two faces may be meant to touch. [m]
 TOUCHING = 1e-7  # [m]
 SHOWN = 3
 

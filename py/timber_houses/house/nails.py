@@ -22,8 +22,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-CODE_DRIFT = 1 / 150
-"""Drift up to which the allowable shear is within the stiffness. [rad]"""
+CODE_DRIFT = 1 / 150  # drift up to which the allowable shear is within the stiffness. [rad]
 
 
 @dataclass(frozen=True)

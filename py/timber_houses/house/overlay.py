@@ -12,8 +12,7 @@ from .parser import Items, Table, parse_value, plain
 from .schema import NAME
 
 _STEP = re.compile(rf"({NAME})((?:\[\d{{1,6}}\])*)")
-MIN_FACTOR, MAX_FACTOR = 1e-3, 1e3
-"""Range of the factor on the joints' strength."""
+MIN_FACTOR, MAX_FACTOR = 1e-3, 1e3  # range of the factor on the joints' strength
 
 
 def changed_house(name_or_path, settings=(), braces=(), strength=1.0, where="{}".format):
@@ -54,9 +53,6 @@ def changed_house(name_or_path, settings=(), braces=(), strength=1.0, where="{}"
         if table.get("strength") is not None:
             table["strength"] *= strength
     return plain(data)
-
-
-# --- single keys ------------------------------------------------------------------------------------------------------
 
 
 def _set(data, text, where):
@@ -105,9 +101,6 @@ def _has_entry(node, step, key, where):
     if not 0 <= step < len(node):
         raise HouseError(f"{where}: {key}: there is no item [{step + 1}]; the list has {len(node)}")
     return False
-
-
-# --- braces, walls and joints -----------------------------------------------------------------------------------------
 
 
 def _fill(data, text, where):

@@ -11,8 +11,7 @@ import numpy as np
 
 from .structure import ENDS
 
-ROUNDING = 1e-6
-"""Of positions. [m]"""
+ROUNDING = 1e-6  # of positions. [m]
 
 
 @dataclass(frozen=True, eq=False)

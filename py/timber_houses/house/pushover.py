@@ -14,8 +14,7 @@ from ..base.joint_kinds import WALL_COLUMN
 from .loads import bay_length
 from .weight import level_masses
 
-SHARES = 2.0
-"""Halves of a wall: each spring stands for one. [-] (walls.py, SHARE)"""
+SHARES = 2.0  # halves of a wall: each spring stands for one. [-] (walls.py, SHARE)
 DIRECTIONS = ("ew", "ns")
 
 

@@ -19,10 +19,8 @@ from .errors import HouseError
 from .geometry import Polyhedron, box
 from .structure import ACROSS, ENDS, OUTWARD
 
-SEAT = 0.05
-"""Least reach of the soffit beyond the grid line: about the inner half of a wall plate. [m]"""
-SPACING = 0.91
-"""Of the tie beams of a gable roof along its ridge and of the posts of a mono-pitch roof, at most. [m]"""
+SEAT = 0.05  # least reach of the soffit beyond the grid line: about the inner half of a wall plate. [m]
+SPACING = 0.91  # of the tie beams of a gable roof along its ridge and of the posts of a mono-pitch roof, at most. [m]
 
 
 @dataclass(frozen=True, eq=False)

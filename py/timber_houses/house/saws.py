@@ -6,8 +6,7 @@ they lie at equal steps of exp(-x / 2), by which the lines between them miss the
 """
 import math
 
-POINTS = 256
-"""Up to DU: the lines miss the curve by at most F0 / 65536."""
+POINTS = 256  # up to DU: the lines miss the curve by at most F0 / 65536
 
 
 def _force(table, d):

@@ -13,8 +13,7 @@ from .model import Element
 ACROSS = {"x": "y", "y": "x"}
 ENDS = {"x": ("west", "east"), "y": ("south", "north")}
 """Sides of a house at the lower and at the higher end of an axis."""
-OUTWARD = {"west": (-1, 0), "east": (1, 0), "south": (0, -1), "north": (0, 1)}
-"""Horizontal unit vectors."""
+OUTWARD = {"west": (-1, 0), "east": (1, 0), "south": (0, -1), "north": (0, 1)}  # horizontal unit vectors
 
 
 @dataclass(frozen=True, eq=False)

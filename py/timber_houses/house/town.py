@@ -21,8 +21,7 @@ from .plan import ROUNDING
 from .schema import MapOf, Number, Record, fail
 
 LOT_FILES = (".csv", ".geojson", ".json")
-FAR = 20_000.0
-"""Largest coordinate of a lot. [m]"""
+FAR = 20_000.0  # largest coordinate of a lot. [m]
 LOT = Record({"house": word(), "x": Number("m", -FAR, FAR), "y": Number("m", -FAR, FAR),
               "rotation": Number("degrees", -360, 360, default=0.0), "snow": Number("m", 0, MAX_SNOW, default=None)})
 WAVE = Record({"velocity": Number("m/s", 50, 20_000), "direction": Number("degrees", 0, 360)}, default=None)

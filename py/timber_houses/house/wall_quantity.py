@@ -35,22 +35,17 @@ RULES = {"weights_2025": Rule("rule of 1 April 2025", 7.0, 0.5),
          "table_1981": Rule("table of 1981, until 31 March 2025", 5.0, 0.0)}
 """Largest multiplier: Order, Article 46, and Notification 1100 (compared: kenchikuyogo.com 5; fukuicompu.co.jp 7).
 Share: Notification 1100 as of 2025 (compared: stmaki.com, page 2775)."""
-ROOFS = {"metal": 500, "slates": 740, "tiles": 990}
-"""Per m2 of roof surface, with ceiling. [N/m2]"""
+ROOFS = {"metal": 500, "slates": 740, "tiles": 990}  # per m2 of roof surface, with ceiling. [N/m2]
 WALLS = {"boards": 350, "metal": 500, "siding": 600, "mortar": 890, "mud": 1000}
 """Per m2 of outer wall, with frame and lining. [N/m2]"""
-FRAME = 150
-"""Of WALLS, for the frame, which `loads.wall` leaves out. [N/m2] (Order, Article 84)"""
+FRAME = 150  # of WALLS, for the frame, which `loads.wall` leaves out. [N/m2] (Order, Article 84)
 CEILING_INSULATION, FLOOR, LIVE = 100, 610, 600
 """Per m2 of floor; live load of a dwelling, for earthquakes (Order, Article 85). [N/m2]"""
 WALL_INSULATION, WINDOW, WINDOWS = 70, 400, 0.09
 """Per m2 of outer wall, of window [N/m2]; windows over outer walls [-]."""
-INNER_WALL, INNER_HEIGHT = 200, 2.8
-"""Per m2 of floor at this storey height. [N/m2], [m]"""
-PERIMETER, FLOOR_AREA = 2 * (6.0 + 16.5), 6.0 * 16.5
-"""Of the sheet's house. [m], [m2]"""
-UNIT_SHEAR = 0.0196
-"""Allowable shear of 1 cm of a wall of multiplier 1. [kN]"""
+INNER_WALL, INNER_HEIGHT = 200, 2.8  # per m2 of floor at this storey height. [N/m2], [m]
+PERIMETER, FLOOR_AREA = 2 * (6.0 + 16.5), 6.0 * 16.5  # of the sheet's house. [m], [m2]
+UNIT_SHEAR = 0.0196  # allowable shear of 1 cm of a wall of multiplier 1. [kN]
 SNOW_UNIT, SNOW_SHARE = 3.0, 0.35
 """Of snow in regions with much of it, 30 N/m2 per cm [kN/m3], and its share beside an earthquake [-] (Order, Article 86
 and Article 82). Article 46 has no addition for snow; ordinances of such regions do (Hokkaido; compared:

@@ -11,8 +11,7 @@ from .schema import fail
 
 ALLOWABLE = 1960.0
 """Allowable shear of a wall of multiplier 1. [N per m of wall] (Order of the Building Standard Law, Article 46)"""
-RATED_DRIFT = 1 / 120
-"""Drift at which walls with pinned feet are rated. [rad]"""
+RATED_DRIFT = 1 / 120  # drift at which walls with pinned feet are rated. [rad]
 
 
 @dataclass(frozen=True)
@@ -37,25 +36,18 @@ LEVELS = {"design": Level(((0.01, 1.5),), 1.5, 0.05, 0.103),
 """`design`: just passes the test of its multiplier; `mean`: mean of tested walls (sources: docs/house_files.md)."""
 TAIL = LEVELS["mean"].ultimate_drift / 0.0497
 """Drift without shear over the drift at 80 % of the largest shear, the end of tests: that of `mean`. [-]"""
-SLIP_TOLERANCE = 0.1
-"""Of the nails' Pv = k dv. [-]"""
-ROUNDING = 1e-9
-"""Of shears. [-]"""
-LEAST_SHEAR = 100.0
-"""Of the largest shear of an envelope, below which it is taken to be in kN. [N/m]"""
-LEAST_FRICTION = 1e-3
-"""Of the largest shear: a friction force between zero and this is taken to be in kN. [-]"""
+SLIP_TOLERANCE = 0.1  # of the nails' Pv = k dv. [-]
+ROUNDING = 1e-9  # of shears. [-]
+LEAST_SHEAR = 100.0  # of the largest shear of an envelope, below which it is taken to be in kN. [N/m]
+LEAST_FRICTION = 1e-3  # of the largest shear: a friction force between zero and this is taken to be in kN. [-]
 QUASI_LIMIT = 1.5
 """Largest multiplier of a quasi-bearing wall. [-] (Notification 1100 as of 2025; compared: kenchiku-spec of
 wall_quantity.py)"""
-FORMS = ("envelope", "nails", "saws")
-"""Of a type's shear, in place of that of its multiplier."""
+FORMS = ("envelope", "nails", "saws")  # of a type's shear, in place of that of its multiplier
 FRICTION = 0.1
 """Friction force over the largest shear. [-] (SAWS set of a wall of OpenSees' example; docs/theory.md, walls)"""
-RELOAD_SHARE = 0.65
-"""Share of the slack from which walls reload. [-] (likewise)"""
-RELOAD_TARGET = 1.1
-"""Drift at which reloading meets the envelope, over the largest one so far. [-] (likewise)"""
+RELOAD_SHARE = 0.65  # share of the slack from which walls reload. [-] (likewise)
+RELOAD_TARGET = 1.1  # drift at which reloading meets the envelope, over the largest one so far. [-] (likewise)
 
 
 @dataclass(frozen=True)

@@ -22,13 +22,11 @@ from .model import JointSpec, Sheet, WallCycles
 from .structure import ACROSS
 from .wall_types import cycles, envelope, multiplier, quasi_multiplier, steepest
 
-SHARE = 0.5
-"""Of a wall's shear, between beams and between columns. [-]"""
+SHARE = 0.5  # of a wall's shear, between beams and between columns. [-]
 OPENINGS = {"none": (1.0, 1.0, 1.0), "window": (0.4, 0.3, 0.2), "door": (0.2, 0.15, 0.1)}
 """Strength and stiffness over those without an opening, in bays up to 1 m, up to 2 m, and longer (strength: JBDPA,
 precise diagnosis of 2004; stiffness: assumed to be the same). [-]"""
-REACH = 1e-3
-"""Beyond the ends of the columns, where beam and sill are looked for. [m]"""
+REACH = 1e-3  # beyond the ends of the columns, where beam and sill are looked for. [m]
 
 
 @dataclass(frozen=True)

@@ -7,8 +7,7 @@ from .text import UP, Channel, finite, positive, require_step
 
 DIRECTIONS = {"ns": 0.0, "ew": 90.0, "ud": UP}
 ALIASES = {"n-s": "ns", "e-w": "ew", "u-d": "ud", "north": "ns", "east": "ew", "up": "ud", "t": "time"}
-FILLING = ",; \t"
-"""What a spreadsheet adds to short rows."""
+FILLING = ",; \t"  # what a spreadsheet adds to short rows
 SPACING_TOLERANCE = 0.1
 """Largest deviation of a time column from equal spacing, in steps: room for printed rounding, none for a gap."""
 

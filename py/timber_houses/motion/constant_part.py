@@ -9,12 +9,9 @@ import numpy as np
 
 from .record import GAL, STANDARD_GRAVITY, RecordWarning
 
-LARGEST_SHARE = 0.02
-"""Largest mean of a component that needs no warning, as a share of its peak. [-]"""
-VISIBLE = 1e-3
-"""Smaller means, as a share of the largest acceleration of all components, are noise. [-]"""
-ROUNDING = 1e-9
-"""What is left of a constant part that was removed. [m/s2]"""
+LARGEST_SHARE = 0.02  # largest mean of a component that needs no warning, as a share of its peak. [-]
+VISIBLE = 1e-3  # smaller means, as a share of the largest acceleration of all components, are noise. [-]
+ROUNDING = 1e-9  # what is left of a constant part that was removed. [m/s2]
 REMEDY = "--detrend 0 removes it"
 AXES = (("N-S", 1, "a lean"), ("E-W", 0, "a lean"), ("up-down", 2, "a change of weight"))
 """Name, column of the accelerations, effect."""

@@ -17,10 +17,8 @@ from .record import RecordError, unit_factor
 from .text import (COMMENT, Channel, clock, direction_of, finite, numbers, positive, require_count, require_step, table,
                    whole)
 
-AT2_HEADER_LINES = 20
-"""Lines in which the number of samples of an AT2 file is searched."""
-JMA_HEADER_LINES = 30
-"""Lines in which the row of column names of a JMA file is searched."""
+AT2_HEADER_LINES = 20  # lines in which the number of samples of an AT2 file is searched
+JMA_HEADER_LINES = 30  # lines in which the row of column names of a JMA file is searched
 _PEKNOLD = "points at equal spacing of"
 
 
@@ -178,8 +176,7 @@ def _jma_header(path, lines):
 
 # --- plain CSV ----------------------------------------------------------------------------------
 
-_UNIQUE = ("dt", "sampling", "units", "unit", "samples")
-"""Comments that decide how the numbers are read."""
+_UNIQUE = ("dt", "sampling", "units", "unit", "samples")  # comments that decide how the numbers are read
 _SECONDS = {"s": 1.0, "sec": 1.0, "ms": 1e-3, None: 1.0}
 
 

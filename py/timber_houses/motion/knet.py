@@ -17,10 +17,8 @@ from .networks import PLAIN_CSV
 from .record import GAL, RecordError, RecordWarning, unit_factor
 from .text import UP, Channel, clock, direction_of, finite, numbers, positive, require_count, require_step, table
 
-HEADER_LINES = 17
-"""Of an ASCII file."""
-CSV_HEADER_LINES = 60
-"""Lines in which the names of the columns of a CSV file are searched."""
+HEADER_LINES = 17  # of an ASCII file
+CSV_HEADER_LINES = 60  # lines in which the names of the columns of a CSV file are searched
 KIK_DIRECTIONS = {"1": 0.0, "2": 90.0, "3": UP, "4": 0.0, "5": 90.0, "6": UP}
 """Channel numbers of KiK-net: 1-3 borehole, 4-6 surface, each north, east, up."""
 DELAY = timedelta(seconds=15)
@@ -28,14 +26,11 @@ DELAY = timedelta(seconds=15)
 MAX_TOLERANCE = 0.02
 """Relative difference from the header's Max. Acc., of 3 to 6 digits, above which a warning is given."""
 
-# --- ASCII --------------------------------------------------------------------------------------
-
 _FIELDS = {"Record Time": "", "Sampling Freq": "(Hz)", "Duration Time": "(s)", "Dir.": "", "Scale Factor": "",
            "Max": "(gal)"}
 """Beginning of a header line -> unit before its value. There are two spellings: 'Max. Acc. (gal)' and 'Max Acc. (gal)'.
 """
-_OPTIONAL = ("Record Time", "Max")
-"""Fields without which the record can be used."""
+_OPTIONAL = ("Record Time", "Max")  # fields without which the record can be used
 
 
 def is_ascii(lines):
@@ -89,8 +84,6 @@ def _refuse_units(path, units):
     if units is not None:
         raise RecordError(f"{path}: K-NET files state their unit; give no unit")
 
-
-# --- CSV ----------------------------------------------------------------------------------------
 
 _COLUMN = re.compile(r"(n-?s|e-?w|u-?d)(.*)", re.I)
 _UNIT = re.compile(r"\(([^()]*/[^()]*|gal|g)\)", re.I)

@@ -10,12 +10,10 @@ import scipy  # submodules (27 MB) load on first use; a plain run needs none
 from .filters import PADDING, highpass_with_ends
 from .record import GAL, STANDARD_GRAVITY, RecordError, interpolated, subdivided
 
-CM = 0.01
-"""One centimetre in metres."""
+CM = 0.01  # one centimetre in metres
 VELOCITY_CORNER = 0.05
 """Default high-pass of velocities and displacements. [Hz] Below it records have baseline errors, not motion."""
-INTENSITY_DURATION = 0.3
-"""The filtered vector acceleration must stay at or above a0 for this long in total. [s] (JMA)"""
+INTENSITY_DURATION = 0.3  # the filtered vector acceleration must stay at or above a0 for this long in total. [s] (JMA)
 INTENSITY_STEP = 1 / 800
 """Largest step between two values of the filtered acceleration, whose highest frequency of note is 10 Hz. [s]"""
 MOST_SAMPLES = 2_000_000

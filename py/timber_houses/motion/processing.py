@@ -12,10 +12,8 @@ from .filters import require_size, zero_phase_highpass
 from .measures import jma_intensity, pga
 from .record import GAL, GroundMotion, RecordError, interpolated, peaks_gal
 
-PAD_SECONDS = 5.0
-"""Zeros added at the end before a band-limited resampling, which treats the record as periodic. [s]"""
-LARGEST_RATIO = 100_000
-"""Largest numerator or denominator of old step / new step for band-limited resampling."""
+PAD_SECONDS = 5.0  # zeros added at the end before a band-limited resampling, which treats the record as periodic. [s]
+LARGEST_RATIO = 100_000  # largest numerator or denominator of old step / new step for band-limited resampling
 
 
 def turned(motion, angle):

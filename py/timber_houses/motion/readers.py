@@ -32,8 +32,7 @@ SUFFIXES = (("K-NET", r"\.(?:ns|ew|ud)", "PREFIX.NS .EW .UD"),
 """Endings of the names of a record's three files, tried in this order: of a KiK-net pair the surface sensor is taken
 (the borehole's three files can be named one by one)."""
 MAX_COMPONENTS, MAX_SHOWN_FILES = 3, 6
-SURPRISING = 5 * STANDARD_GRAVITY
-"""Acceleration above which a warning is given. [m/s2]"""
+SURPRISING = 5 * STANDARD_GRAVITY  # acceleration above which a warning is given. [m/s2]
 DEFAULT_RECORD = Path(__file__).resolve().parent.parent / "data" / "ojiya_like.csv"
 """The synthetic Ojiya-like motion that the package ships: output of the generator for DEFAULT_SEED."""
 

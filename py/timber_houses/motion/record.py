@@ -9,17 +9,13 @@ import numpy as np
 from ..base.errors import InputError
 from ..base.input_file import shown
 
-GAL = 0.01
-"""One gal (cm/s2) in m/s2."""
-STANDARD_GRAVITY = 9.80665
-"""One g in m/s2 (the unit of PEER records)."""
+GAL = 0.01  # one gal (cm/s2) in m/s2
+STANDARD_GRAVITY = 9.80665  # one g in m/s2 (the unit of PEER records)
 UNITS = {"gal": GAL, "cm/s2": GAL, "cm/s/s": GAL, "cm/s^2": GAL, "cm/sec2": GAL, "cm/sec/sec": GAL, "m/s2": 1.0,
          "m/s/s": 1.0, "m/s^2": 1.0, "g": STANDARD_GRAVITY}
 """Known spellings of acceleration units and their size in m/s2."""
-WEAK = 0.01 * GAL, 10 * GAL
-"""Peaks that are none of an earthquake, but usual numbers in m/s2 or g. [m/s2]"""
-MAX_ACCELERATION = 1e3
-"""Largest acceleration of a ground motion. [m/s2] The largest recorded ones are below 50."""
+WEAK = 0.01 * GAL, 10 * GAL  # peaks that are none of an earthquake, but usual numbers in m/s2 or g. [m/s2]
+MAX_ACCELERATION = 1e3  # largest acceleration of a ground motion. [m/s2] The largest recorded ones are below 50.
 
 
 class RecordError(InputError):

@@ -9,10 +9,8 @@ import numpy as np
 from .filters import require_size
 from .record import GroundMotion, RecordError, subdivided
 
-DEFAULT_GAP = 5.0
-"""Quiet between two motions of a sequence. [s]"""
-DENOMINATOR = 100_000
-"""Largest denominator of a time step as a fraction of a second."""
+DEFAULT_GAP = 5.0  # quiet between two motions of a sequence. [s]
+DENOMINATOR = 100_000  # largest denominator of a time step as a fraction of a second
 
 
 @dataclass(frozen=True)

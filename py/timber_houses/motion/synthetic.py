@@ -24,26 +24,19 @@ from .filters import zero_phase_highpass
 from .measures import CM, INTENSITY_DURATION, VELOCITY_CORNER, jma_filtered, peak, pga, response_spectrum
 from .record import GAL, GroundMotion, RecordError
 
-GENERATOR_VERSION = 1
-"""Raised whenever the output for a given seed changes."""
+GENERATOR_VERSION = 1  # raised whenever the output for a given seed changes
 DEFAULT_SEED = 3
 """Of the shipped motion, under which an unbraced house falls E-W (in the paper N-S); others: research/claims."""
-DT = 0.01
-"""Time step. [s]"""
-DURATION = 40.0
-"""Length. [s]"""
-P_ARRIVAL, S_ARRIVAL = 15.0, 17.9
-"""First shaking and beginning of the strong shaking. [s]"""
+DT = 0.01  # time step. [s]
+DURATION = 40.0  # length. [s]
+P_ARRIVAL, S_ARRIVAL = 15.0, 17.9  # first shaking and beginning of the strong shaking. [s]
 TARGETS = {"pga_ns": 1147.0, "pga_ew": 1308.0, "pga_ud": 820.0, "pga_h": 1501.0, "pgv_h": 133.0, "jma": 6.73,
            "psv_ew": 500.0}
 """Published values: peaks of components and of the horizontal vector [gal], [cm/s], JMA intensity, and the value that
 the 5 % pseudo-velocity [cm/s] exceeds at PSV_PERIODS (checked for EW alone, hence for the resultant too)."""
-PSV_PERIODS = np.linspace(0.60, 0.70, 11)
-"""Periods at which the pseudo-velocity is above its target. [s]"""
-PSV_GOAL = 1.08
-"""Smallest pseudo-velocity over PSV_PERIODS that the loop aims at, in parts of the target."""
-LOOPS, ATTEMPTS = 25, 100
-"""Corrections of one motion, and motions tried for one seed."""
+PSV_PERIODS = np.linspace(0.60, 0.70, 11)  # periods at which the pseudo-velocity is above its target. [s]
+PSV_GOAL = 1.08  # smallest pseudo-velocity over PSV_PERIODS that the loop aims at, in parts of the target
+LOOPS, ATTEMPTS = 25, 100  # corrections of one motion, and motions tried for one seed
 
 
 @dataclass(frozen=True)

@@ -15,22 +15,15 @@ from ..base.input_file import read_bytes, shown
 from .networks import other_binary
 from .record import RecordError, RecordWarning
 
-MAX_FILE_SIZE = 10_000_000
-"""Of one file. [bytes]"""
-MAX_LINE = 1000
-"""Characters of one line."""
-MAX_SAMPLES = 200_000
-"""Samples of one component: 33 minutes at 100 Hz."""
-MAX_NUMBER = 1e15
-"""Largest absolute value of a number in a record, of any unit."""
-MIN_STEP, MAX_STEP = 1e-4, 1.0
-"""Time steps of accelerographs. [s]"""
-YEARS = range(1800, 2200)
-"""Years of records."""
+MAX_FILE_SIZE = 10_000_000  # of one file. [bytes]
+MAX_LINE = 1000  # characters of one line
+MAX_SAMPLES = 200_000  # samples of one component: 33 minutes at 100 Hz
+MAX_NUMBER = 1e15  # largest absolute value of a number in a record, of any unit
+MIN_STEP, MAX_STEP = 1e-4, 1.0  # time steps of accelerographs. [s]
+YEARS = range(1800, 2200)  # years of records
 COMMENT = ("#", '"#')
 """Beginnings of a comment; a spreadsheet quotes it."""
-UP = "up"
-"""Direction of a vertical channel, positive upwards; `DOWN` is positive downwards."""
+UP = "up"  # direction of a vertical channel, positive upwards; `DOWN` is positive downwards
 DOWN = "down"
 NAMES = {0.0: "ns n north northsouth y", 90.0: "ew e east eastwest x", UP: "ud u up v ver vert vertical z",
          DOWN: "dn dwn down"}
@@ -179,8 +172,7 @@ def require_step(dt, where):
 
 _CLOCK = re.compile(r"\D*(\d+)" + r"\D+(\d+)" * 4 + r"(?:\D+(\d+(?:\.\d*)?))?")
 """Year, month, day, hour, minute and, in any number of digits, seconds."""
-CENTURY_TURN = 69
-"""Years of two digits from here on are 19xx, smaller ones 20xx (POSIX)."""
+CENTURY_TURN = 69  # years of two digits from here on are 19xx, smaller ones 20xx (POSIX)
 
 
 def clock(text, where):

@@ -20,8 +20,7 @@ from .walls import of_walls, sheet_states
 SIDES = ("north", "south", "east", "west", "inside")
 SNOW_DROP = 1.0
 """Snow has fallen when its centre is lower by this, and it is beyond the roof or touches the ground. [m]"""
-TOUCH = 0.05
-"""Height of the lowest corner of snow that touches the ground. [m]"""
+TOUCH = 0.05  # height of the lowest corner of snow that touches the ground. [m]
 
 
 @dataclass(frozen=True)

@@ -6,18 +6,12 @@ from .history import DIRECTIONS
 
 SHORT_WINDOW = 1.0
 """Last part of a run without a whole period of oscillation, over which the residual drift is averaged. [s]"""
-SLOW_WINDOW = 5.0
-"""Last part of such a run that gives the amplitude, about the period of a swinging wreck. [s]"""
-WINDOWS = (2.0, 4.0, 8.0, 16.0)
-"""Last parts of a run in which two periods' ends are searched, the shortest first. [s]"""
-AVERAGED = 2.0
-"""The last whole periods that make up this time, at least one, are averaged: slow swings decay. [s]"""
-HYSTERESIS = 0.25
-"""A zero crossing counts after an excursion to the other side by this share of half the range. [-]"""
-RECENT = 1.2
-"""The last whole period must end at most this many periods before the end of the run. [-]"""
-MOVING_AMPLITUDE = 1e-3
-"""A house whose drift oscillates by more at the end is still moving. [-]"""
+SLOW_WINDOW = 5.0  # last part of such a run that gives the amplitude, about the period of a swinging wreck. [s]
+WINDOWS = (2.0, 4.0, 8.0, 16.0)  # last parts of a run in which two periods' ends are searched, the shortest first. [s]
+AVERAGED = 2.0  # the last whole periods that make up this time, at least one, are averaged: slow swings decay. [s]
+HYSTERESIS = 0.25  # a zero crossing counts after an excursion to the other side by this share of half the range. [-]
+RECENT = 1.2  # the last whole period must end at most this many periods before the end of the run. [-]
+MOVING_AMPLITUDE = 1e-3  # a house whose drift oscillates by more at the end is still moving. [-]
 
 
 def residual(history):

@@ -13,8 +13,7 @@ from .history import NAME as HISTORY
 from .history import History
 
 NAME, TABLE, RUNS = "ensemble.json", "ensemble.csv", "runs"
-NAMES = (NAME, TABLE)
-"""Files beside the results of the run that is shown."""
+NAMES = (NAME, TABLE)  # files beside the results of the run that is shown
 
 
 def run_folder(folder, number):

@@ -13,15 +13,12 @@ from .history import DIRECTIONS
 from .series import Series
 
 NAME = "storeys.csv"
-SUSTAINED = 0.1
-"""Time over which a sustained shear is averaged. [s]"""
-BAND = (0.0, 10.0)
-"""Of accelerations [Hz]: up to the high-cut of JMA's intensity, where the amplitude is 1/sqrt(2)."""
+SUSTAINED = 0.1  # time over which a sustained shear is averaged. [s]
+BAND = (0.0, 10.0)  # of accelerations [Hz]: up to the high-cut of JMA's intensity, where the amplitude is 1/sqrt(2)
 BAND_TEXT = f"{BAND[0]:g} to {BAND[1]:g} Hz"
 ORDER, STEP, PADDING = 3, 0.01, 1.0
 """Of the low-pass (Butterworth's amplitude, no phase), its time step, ends held for its transients. [s]"""
-AXES = {"ew": 0, "ns": 1, "ud": 2}
-"""Component of a vector (east, north, up)."""
+AXES = {"ew": 0, "ns": 1, "ud": 2}  # component of a vector (east, north, up)
 
 
 class Storeys(Series):

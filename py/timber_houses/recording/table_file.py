@@ -20,8 +20,7 @@ FAULTS = (OSError, LookupError, ValueError, TypeError, AttributeError, RuntimeEr
 """Errors of h5py, numpy or json for a file of another format."""
 KINDS = {"number": "fiu", "whole": "iu", "flag": "b"}
 """Kinds of entries, but for 'text' (strings of variable length), as kinds of numpy."""
-TEXT_ENTRY = 16
-"""Of a string, in its table: length, address, number. [bytes]"""
+TEXT_ENTRY = 16  # of a string, in its table: length, address, number. [bytes]
 
 
 @dataclass(frozen=True)

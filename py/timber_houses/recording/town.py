@@ -11,8 +11,7 @@ from .summary import TownSummary
 
 MOST_PLACEMENTS = 4_000_000
 """Elements times frames of a town, above which frames are left out. [-] A player of that size has 30 MB."""
-SHOWN = ("tilt", "collapse", "structure_fallen", "snow_fallen")
-"""Kinds of events of a lot that are events of the town."""
+SHOWN = ("tilt", "collapse", "structure_fallen", "snow_fallen")  # kinds of events of a lot that are events of the town
 
 
 SIDES = {"east": (1, 0), "north": (0, 1), "west": (-1, 0), "south": (0, -1)}

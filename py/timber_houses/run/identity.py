@@ -65,9 +65,6 @@ def decisive_files(folder):
     return [path for path in paths if path.is_file() and path.relative_to(folder).as_posix() not in DISPLAY]
 
 
-# --- fingerprints: 16 hexadecimal digits ------------------------------------------------------------------------------
-
-
 def of_arrays(arrays):
     """Of numpy arrays: types, shapes and bits."""
     total = sha256()

@@ -14,11 +14,9 @@ from ..scene import viewer
 from .progress import Status
 from .runner import Run
 
-TAG = "yade-timber run"
-"""Tag of the scene: the run that it belongs to."""
+TAG = "yade-timber run"  # tag of the scene: the run that it belongs to
 O = yw.Omega()
-live = None
-"""The LiveRun of this session that records frames."""
+live = None  # the LiveRun of this session that records frames
 
 
 class LiveRun(Run):

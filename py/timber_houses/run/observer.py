@@ -25,20 +25,13 @@ from ..recording.verdict import UNDAMAGED
 from ..scene.scenario import level_marks, sampled_columns
 from .modal import modes_now
 
-SETTLED = 1.0
-"""Time at which the house has settled under its weight, and its first natural modes are taken. [s]"""
-HARMFUL = 0.5
-"""Ground acceleration that damages no sound house: half of the design earthquake. [m/s2]"""
-SPENT = 0.2
-"""Ground acceleration that moves no wreck: friction holds 2 m/s2 and more. [m/s2]"""
-REST_SPEED = 0.02
-"""Largest speed of a body at rest in a wreck: its sway in such a ground motion stays below. [m/s]"""
-ROLLING = 0.01
-"""Share of the free mass that may still move in a wreck at rest: single members that roll away. [-]"""
-REST_TIME = 3.0
-"""A run ends when its wreck has been at rest for so long, and the motion is spent. [s]"""
-BREAKS = ("time", "joint", "spring", "cause", "force")
-"""Attributes of a JointBreak, columns of frames.h5's /breaks."""
+SETTLED = 1.0  # time at which the house has settled under its weight, and its first natural modes are taken. [s]
+HARMFUL = 0.5  # ground acceleration that damages no sound house: half of the design earthquake. [m/s2]
+SPENT = 0.2  # ground acceleration that moves no wreck: friction holds 2 m/s2 and more. [m/s2]
+REST_SPEED = 0.02  # largest speed of a body at rest in a wreck: its sway in such a ground motion stays below. [m/s]
+ROLLING = 0.01  # share of the free mass that may still move in a wreck at rest: single members that roll away. [-]
+REST_TIME = 3.0  # a run ends when its wreck has been at rest for so long, and the motion is spent. [s]
+BREAKS = ("time", "joint", "spring", "cause", "force")  # attributes of a JointBreak, columns of frames.h5's /breaks
 O = yw.Omega()
 
 
@@ -155,8 +148,7 @@ class Observer:
         judged = decode(dict[str, Judged], progress["judged"]) if progress else None
         self.judge = Judge(self.survey.levels, [(e.group, e.storey) for e in sampled_columns(model)], judged)
         self.columns = tuple(find_engine(yw.Sampler).columns())
-        self.fresh = []
-        """[(n, W) arrays]: rows of the Sampler that are in no file yet."""
+        self.fresh = []  # [(n, W) arrays]: rows of the Sampler that are in no file yet
         self._past = [(O.time, encode(self.judge.structures))]
         self.modes = decode(ModesAt | None, progress["modes"]) if progress else None
         self.upright = progress["upright"] if progress else (0.0, [])

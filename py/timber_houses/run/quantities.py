@@ -22,8 +22,7 @@ from . import observer
 from .modal import modes_now
 
 JOINTS, COLUMNS = "joints.csv", "columns.csv"
-NAMES = (quantities.NAME, JOINTS, COLUMNS)
-"""Files that `Tables.write` makes."""
+NAMES = (quantities.NAME, JOINTS, COLUMNS)  # files that `Tables.write` makes
 AXES = quantities.AXES
 O = yw.Omega()
 

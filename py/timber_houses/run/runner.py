@@ -23,8 +23,7 @@ from .recorder import Recorder
 from .samples import SampleFile
 
 STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM)
-HOUSES = "houses.csv"
-"""Table of a town's houses."""
+HOUSES = "houses.csv"  # table of a town's houses
 RECORDED, STATE = (frames.NAME, frame_log.NAME), (checkpoint.NAME, samples.NAME)
 """Files of the frames, and of what a resumed run continues from."""
 O = yw.Omega()

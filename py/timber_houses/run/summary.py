@@ -24,8 +24,7 @@ from . import observer, quantities
 
 CREATED, NEGLIGIBLE = 1e-4, 1e-3
 """Admissible energy created by contacts and joints, as a share of the input [-], and what is always admissible [J]."""
-NAMES = (NAME, HISTORY, BREAKS, *quantities.NAMES)
-"""Files that `write` makes."""
+NAMES = (NAME, HISTORY, BREAKS, *quantities.NAMES)  # files that `write` makes
 O = yw.Omega()
 
 
@@ -129,9 +128,6 @@ def created_too_much(energy):
     share = energy.created / energy.input if energy.input > 0 else math.inf
     return (f"contacts and joints have created {energy.created:.3g} J, {share:.1g} of the energy put in (admissible:"
             f" {CREATED:g}); try a smaller --dt")
-
-
-# --- files ------------------------------------------------------------------------------------------------------------
 
 
 BREAKS_HEADER = ("time [s]", "joint", "kind", "storey", "side", "spring", "cause", "force [N]")

@@ -22,10 +22,8 @@ from yade_timber.plugin import compiled
 from yade_timber.scene.background import between_steps
 from yade_timber.scene.engines import find_engine
 
-SHIFT = -1.0
-"""Eigenvalues nearest to this are found first [1/s2]; below zero, since a wreck has many at zero."""
-SEARCHED = 40
-"""Number of modes that are looked at. [-]"""
+SHIFT = -1.0  # eigenvalues nearest to this are found first [1/s2]; below zero, since a wreck has many at zero
+SEARCHED = 40  # number of modes that are looked at. [-]
 SLOWEST = 60.0
 """Longest period of a mode, and longest 2 pi / sqrt(-omega^2) of an unstable one [s]; slower motions are free.
 Observed: unbraced frames up to 4 s, rounding of free motions 1e8 s."""

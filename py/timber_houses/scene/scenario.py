@@ -19,8 +19,7 @@ from ..house.errors import StepError
 from ..house.friction import own_coefficient
 from . import sway
 
-SETTLING = 0.2
-"""Time in which a house comes to rest under its weight before its sway modes are computed. [s]"""
+SETTLING = 0.2  # time in which a house comes to rest under its weight before its sway modes are computed. [s]
 O = yw.Omega()
 
 

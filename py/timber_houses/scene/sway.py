@@ -17,8 +17,7 @@ from yade_timber.scene.engines import find_engine
 
 from . import modes
 
-HORIZONTAL = (0, 1)
-"""Components east and north."""
+HORIZONTAL = (0, 1)  # components east and north
 MOST = 2.0
 """Largest time over that of a house whose joints have all of the elastic energy, 2 zeta / omega. [-] Larger: joints of
 braced houses would be overdamped once contacts have opened; smaller: less than the stated ratio where sheets join

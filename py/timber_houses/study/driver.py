@@ -32,17 +32,12 @@ from ..run.options import RunOptions
 from ..text.english import counted
 
 END, LOG = "run.json", "run.log"
-ENTRY = Path(__file__).resolve().parents[1] / "api" / "requested.py"
-"""What a process starts."""
-DRIVER = ".driver"
-"""Lock of the driver that starts a run."""
+ENTRY = Path(__file__).resolve().parents[1] / "api" / "requested.py"  # what a process starts
+DRIVER = ".driver"  # lock of the driver that starts a run
 STATES = ("done", "failed", "unfinished")
-STOPS = ("SIGHUP", "SIGINT", "SIGKILL", "SIGTERM")
-"""Signals after which a run is continued; others are crashes."""
-POLL = 0.2
-"""Wall time between two checks of the running processes. [s]"""
-SAVE_TIME = 60.0
-"""Longest wait for interrupted runs to save their checkpoints. [s]"""
+STOPS = ("SIGHUP", "SIGINT", "SIGKILL", "SIGTERM")  # signals after which a run is continued; others are crashes
+POLL = 0.2  # wall time between two checks of the running processes. [s]
+SAVE_TIME = 60.0  # longest wait for interrupted runs to save their checkpoints. [s]
 
 
 @dataclass(frozen=True)

@@ -11,8 +11,7 @@ from ..run.options import RunOptions
 from ..text.english import sentence
 from .driver import ENTRY, Task, command
 
-TIME = 3.0
-"""Simulated time of the run. A sound house is at rest after 1 s, and time at rest costs little. [s]"""
+TIME = 3.0  # simulated time of the run. A sound house is at rest after 1 s, and time at rest costs little. [s]
 
 
 def check_own_weight(house, snow):

@@ -7,14 +7,10 @@ from ..recording.summary import TownSummary
 
 DRIFT_LINES = tuple((limit.drift, limit.text) for limit in verdict.LIMITS)
 """Limits of storey drifts and their meaning. [-]"""
-CONVERGED = 1e-6
-"""Share of the energy put in that unconverged steps may lack without a remark. [-]"""
-SMALL = 1e-3
-"""Drifts below this are not distinguished. [-]"""
-TORSION = 1.1
-"""Drift at a column over that of the centre from which a sentence states it. [-]"""
-LONGEST_TEXT = 400
-"""Letters of a text from data that are shown; Agg cannot draw a line of 32768 pixels."""
+CONVERGED = 1e-6  # share of the energy put in that unconverged steps may lack without a remark. [-]
+SMALL = 1e-3  # drifts below this are not distinguished. [-]
+TORSION = 1.1  # drift at a column over that of the centre from which a sentence states it. [-]
+LONGEST_TEXT = 400  # letters of a text from data that are shown; Agg cannot draw a line of 32768 pixels
 ORIGIN = {"none": "No ground motion", "motion": "Ground motion", "record": "Record", "intensity": "JMA intensity",
           "step": "time step"}
 """Words of pictures/provenance.py."""
@@ -318,8 +314,7 @@ def joint_place(kind, storey, side):
     return ", ".join(filter(None, (named, f"storey {storey}" if storey.isdigit() else storey, walls)))
 
 
-COUPLED = 0.5
-"""Smaller over larger share of the mass of the two horizontal directions from which a mode has both. [-]"""
+COUPLED = 0.5  # smaller over larger share of the mass of the two horizontal directions from which a mode has both. [-]
 
 
 def mode_name(mode):

@@ -7,10 +7,8 @@ from ..recording.quantities import BAND_TEXT
 from .english import (at, counted, directed, direction_name, event, joints, mode_name, period_text, ratio,
                       residual_name, storey_name)
 
-MOST = 10
-"""Number of lines."""
-EVENTS = 3
-"""Number of lines that events may take from others; those of an earlier kind in the next list come first."""
+MOST = 10  # number of lines
+EVENTS = 3  # number of lines that events may take from others; those of an earlier kind in the next list come first
 IMPORTANT = ("own_weight", "collapse", "tilt", "structure_fallen", "snow_fallen", "columns_lost", "first_break")
 
 

@@ -20,8 +20,7 @@ from ..plugin import compiled
 BODY_PARTS = ("shape", "material", "state")
 O = yw.Omega()
 _turn = threading.RLock()
-_pauses = 0
-"""Number of calls of `O.pause`, counted after `guard`. [-]"""
+_pauses = 0  # number of calls of `O.pause`, counted after `guard`. [-]
 
 
 @contextmanager

@@ -13,8 +13,7 @@ from .background import follow_velocity
 from .queries import imposed_velocities
 
 O = yw.Omega()
-LEAST_RADIUS = 1e-4
-"""Smallest rounding radius that a caller may give, that of the tolerance for flush faces. [m]"""
+LEAST_RADIUS = 1e-4  # smallest rounding radius that a caller may give, that of the tolerance for flush faces. [m]
 _TIMBER, _SNOW = yw.TimberMat(), yw.SnowMat()  # the paper's values
 
 

@@ -6,10 +6,8 @@ from yade.minieigenHP import Vector3
 from ..plugin import compiled
 from . import arguments
 
-GRAVITY = tuple(yw.UniformGravity().gravity)
-"""[m/s2]"""
-BOUND_MARGIN = 5e-3
-"""Distance that bodies may move before the collider runs again [m]; results do not depend on it."""
+GRAVITY = tuple(yw.UniformGravity().gravity)  # [m/s2]
+BOUND_MARGIN = 5e-3  # distance that bodies may move before the collider runs again [m]; results do not depend on it
 _FORCES, _RATIO = yw.ContactForces(), yw.Ip2_TimberMat_TimberMat_TimberPhys().dampingRatio  # with their defaults
 O = yw.Omega()
 

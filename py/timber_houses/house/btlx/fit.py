@@ -18,14 +18,10 @@ from ..errors import HouseError
 from ..geometry import SAME, halfspace_vertices, near_boxes, polyhedron, separation
 from .reader import Part
 
-ROUNDING = 1.5e-3
-"""Gap that rounding leaves between parts of 2 m that meet. [m]"""
-OVERLAP = 1e-7
-"""Overlap that is no more than rounding. [m]"""
-MOST_LOST = 0.25
-"""Largest share of its volume that a part loses where it overlaps another, as half a lap. [-]"""
-TRIED = 10.0
-"""Cuts of a pair that are compared: those of up to so many times the least rough share. [-]"""
+ROUNDING = 1.5e-3  # gap that rounding leaves between parts of 2 m that meet. [m]
+OVERLAP = 1e-7  # overlap that is no more than rounding. [m]
+MOST_LOST = 0.25  # largest share of its volume that a part loses where it overlaps another, as half a lap. [-]
+TRIED = 10.0  # cuts of a pair that are compared: those of up to so many times the least rough share. [-]
 
 
 @dataclass(frozen=True, eq=False)

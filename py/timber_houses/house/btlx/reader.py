@@ -16,15 +16,12 @@ from ...base.input_file import shown
 from ..errors import HouseError
 from ..limits import MAX_ELEMENTS
 
-MAX_FILE_SIZE = 50_000_000
-"""Of a BTLx file. [bytes]"""
+MAX_FILE_SIZE = 50_000_000  # of a BTLx file. [bytes]
 MM = 1e-3
 SIZES, FOIL = (1e-3, 100.0), 5e-3
 """Range of a part's length, height and width; thickness from which on a part is read. [m]"""
-FARTHEST = 1e7
-"""Largest coordinate of a place, in a national grid. [m]"""
-MAX_CORNERS = 50
-"""Of a contour that is read; one with more is a curve."""
+FARTHEST = 1e7  # largest coordinate of a place, in a national grid. [m]
+MAX_CORNERS = 50  # of a contour that is read; one with more is a curve
 
 
 @dataclass(frozen=True)

@@ -16,24 +16,15 @@ from .fit import ROUNDING, Piece, fitted, near
 
 TOLERANCE, LEAST_AREA = 1e-3, 1e-3
 """Of parts that meet: largest gap [m], least common area [m2]: `joint_search` of `cad.yaml`."""
-UPRIGHT, LEVEL = 0.985, 0.17
-"""Vertical part of the axis of a column, at least, and of a beam, at most: 10 degrees. [-]"""
-RAFTER = re.compile("rafter|sparren|chevron", re.I)
-"""Designations of inclined parts that are no braces."""
-SHEET = 0.06, 4.0
-"""A part up to this thick [m] is a sheet if it is so many times as wide."""
-FACE = 1e-3
-"""Height above the lowest point up to which faces are level with it. [m]"""
-PAD = 0.1
-"""Height of the pads under columns, and distance of their edges from these. [m]"""
-REACH = 3e-3
-"""Largest distance of a processing's middle from the part that it joins. [m]"""
-MARGIN = 5e-3
-"""Of the box about a member where cuts bound it. [m]"""
-NEGLIGIBLE = 1e-4
-"""Share of a part's volume that a left-out plane may have cut off. [-]"""
-SLIVER = 2e-5
-"""Area of a face without which a part is as good. [m2]"""
+UPRIGHT, LEVEL = 0.985, 0.17  # vertical part of the axis of a column, at least, and of a beam, at most: 10 degrees. [-]
+RAFTER = re.compile("rafter|sparren|chevron", re.I)  # designations of inclined parts that are no braces
+SHEET = 0.06, 4.0  # a part up to this thick [m] is a sheet if it is so many times as wide
+FACE = 1e-3  # height above the lowest point up to which faces are level with it. [m]
+PAD = 0.1  # height of the pads under columns, and distance of their edges from these. [m]
+REACH = 3e-3  # largest distance of a processing's middle from the part that it joins. [m]
+MARGIN = 5e-3  # of the box about a member where cuts bound it. [m]
+NEGLIGIBLE = 1e-4  # share of a part's volume that a left-out plane may have cut off. [-]
+SLIVER = 2e-5  # area of a face without which a part is as good. [m2]
 
 
 def house_table(project, file):

@@ -15,8 +15,7 @@ from ...base.remedies import nearest
 from ...run.options import OptionSource, RunOptions
 from .row import DECISIVE, HOUSE_CHANGES, NO_EARTHQUAKE, BatchError, HouseChanges, Row
 
-MAX_FILE_SIZE = 10_000_000
-"""[bytes]"""
+MAX_FILE_SIZE = 10_000_000  # [bytes]
 COLUMNS = {"house": DECISIVE["house"], **HOUSE_CHANGES, **DECISIVE}
 """{column: option}, without the column `description`. A run has an earthquake unless its record is NO_EARTHQUAKE."""
 DESCRIPTION = "description"
@@ -24,9 +23,6 @@ NOT_UTF8 = "not UTF-8 text; save it as UTF-8 (in a spreadsheet: CSV UTF-8)"
 MIXED = ("the first line has no commas, so blanks separate the columns: separate the names in it by commas, too, or the"
          " values here by blanks alone")
 """Remedy for a table with blanks in the first line and commas in others."""
-
-
-# --- reading ----------------------------------------------------------------------------------------------------------
 
 
 def read_table(path):

@@ -14,8 +14,7 @@ from ...house.parser import house_text
 from ..driver import Task, run_missing
 from .row import BatchError, HouseChanges
 
-HOUSE = "house.yaml"
-"""House file of a row that changes its house, in the run's folder."""
+HOUSE = "house.yaml"  # house file of a row that changes its house, in the run's folder
 
 
 def run_rows(rows, folder, jobs=None, retry=False):
@@ -40,9 +39,6 @@ def write_house(row, folder):
     path = Path(folder) / row.name / HOUSE
     make_folder(path.parent)
     write_text(path, f"# House {Path(house).stem} with changes\n{house_text(data)}")
-
-
-# --- checks -----------------------------------------------------------------------------------------------------------
 
 
 def check_rows(rows, folder):

@@ -92,9 +92,6 @@ def show(folder, run, summary):
     return [*written, summary.write(folder)]
 
 
-# --- lines for the terminal -------------------------------------------------------------------------------------------
-
-
 def lines(content, shown):
     """Outcomes, medians and ranges, and the run that is shown. shown: its summary"""
     count = len(content["finished"])

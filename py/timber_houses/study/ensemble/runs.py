@@ -10,8 +10,7 @@ from ..driver import LOG, Task, run_missing
 from ..probe import estimate
 from . import results
 
-FEWEST = 2
-"""Finished runs below which there are no results."""
+FEWEST = 2  # finished runs below which there are no results
 
 
 def tasks(options):

@@ -11,10 +11,8 @@ from ...house.parser import house_text
 from ..batch import HouseChanges
 
 KINDS = ("brace", "wall", "fitting", "snow")
-USUAL_KINDS = ("brace", "fitting", "snow")
-"""Without walls, which are as many as braces."""
-SHEATHING = "plywood"
-"""Type of the walls that are added."""
+USUAL_KINDS = ("brace", "fitting", "snow")  # without walls, which are as many as braces
+SHEATHING = "plywood"  # type of the walls that are added
 GROUPS = ("bay", "wall")
 """What a brace or wall measure fills: one free bay, or all free bays of a line of columns in a storey."""
 

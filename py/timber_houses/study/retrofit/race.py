@@ -12,14 +12,11 @@ import numpy as np
 import scipy  # submodules load on first use; a plain run needs none
 
 SIGNIFICANCE = 0.05
-FINALISTS = 3
-"""Number of measures that are tested. [-]"""
+FINALISTS = 3  # number of measures that are tested. [-]
 ROUND, CUT = 4, 5
 """Number of motions of a round of the selection, and about the ratio of the measures before and after it. [-]"""
-TESTS, LEAST_TESTS = 16, 10
-"""Number of motions of the test: by default, and the least. [-]"""
-CAP, FLOOR = 1.0, 1e-4
-"""Drift that stands for a collapse, and the smallest drift that is distinguished. [-]"""
+TESTS, LEAST_TESTS = 16, 10  # number of motions of the test: by default, and the least. [-]
+CAP, FLOOR = 1.0, 1e-4  # drift that stands for a collapse, and the smallest drift that is distinguished. [-]
 NO_DIFFERENCE = "no difference can be shown"
 
 

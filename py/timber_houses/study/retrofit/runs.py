@@ -15,12 +15,9 @@ from ..probe import estimate
 from .candidates import AS_IT_IS
 from .race import Entry, cost, rounds, select
 
-PILOTS = 6
-"""Number of motions under which the house as it is runs for the choice of their strength. [-]"""
-WEAKEST, STRONGEST = 1 / 16, 16
-"""Factors on the motions between which a strength is sought. [-]"""
-FINEST = 1.2
-"""Ratio of two factors that are not distinguished: as many motions differ. [-]"""
+PILOTS = 6  # number of motions under which the house as it is runs for the choice of their strength. [-]
+WEAKEST, STRONGEST = 1 / 16, 16  # factors on the motions between which a strength is sought. [-]
+FINEST = 1.2  # ratio of two factors that are not distinguished: as many motions differ. [-]
 
 
 @dataclass
