@@ -67,16 +67,10 @@ def _strip(structure, layer, kind, name, line, start, end):
     centre = structure.position(across, line["at"])
     span = {line["along"]: (start, end), across: (centre - width / 2, centre + width / 2)}
     low, high = ([span["x"][i], span["y"][i], z] for i, z in ((0, layer.z0), (1, layer.z1)))
+    plan = structure.plans.get(max(layer.storey, 1))  # of the storey below or above
     return structure.element(kind, name, box(low, high), layer.table, line["where"], fixed=layer.table["fixed"],
-                             storey=layer.storey, side=_strip_sides(structure, layer, line, start, end),
-                             section=(width, layer.z1 - layer.z0))
-
-
-def _strip_sides(structure, layer, line, start, end):
-    """Sides of the house of a strip, below or above a storey."""
-    plan = structure.plans.get(max(layer.storey, 1))
-    at = structure.position(ACROSS[line["along"]], line["at"])
-    return plan.sides(line["along"], at, start, end) if plan else frozenset()
+                             storey=layer.storey, section=(width, layer.z1 - layer.z0),
+                             side=plan.sides(line["along"], centre, start, end) if plan else frozenset())
 
 
 def lay_floors(structure, layer):

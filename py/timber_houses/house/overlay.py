@@ -70,10 +70,7 @@ def _set(data, text, where):
         parsed = added(present, parsed, where, key)
     else:
         note_replaced(present, parsed, where, key)
-    if is_entry:
-        node.entries[last] = where
-    else:
-        node.entries[last:last + 1] = [where]
+    node.entries[last if is_entry else slice(last, last + 1)] = where if is_entry else [where]
     node[last] = parsed
 
 

@@ -158,10 +158,10 @@ def lay_snow(structure, layer, depth, material):
 def carry_roofs(structure, elements, joints):
     """JointSpecs of posts; changes those of ridges to tie beams: the walls bear the roofs' weight and no thrust."""
     posts = []
-    for layer in structure.layers:
-        if layer.kind == "roof" and layer.table["type"] == "gable":
+    for layer in (layer for layer in structure.layers if layer.kind == "roof"):
+        if layer.table["type"] == "gable":
             _tie_slabs(structure, layer, joints)
-        elif layer.kind == "roof" and layer.table["type"] == "mono":
+        elif layer.table["type"] == "mono":
             posts += _posts(structure, layer, elements, joints)
     return posts
 

@@ -12,6 +12,7 @@ from ..base.errors import one_line
 from ..base.input_file import is_file, shown
 from .description import house_path, require_snow_depth
 from .errors import HouseError
+from .geometry import clip_convex
 from .layout import MAX_SNOW, word
 from .limits import MAX_LOTS, MAX_NODES
 from .loader import require_house_file, text_of
@@ -135,17 +136,6 @@ def check_places(placed):
     for k, (lot, outline) in enumerate(outlines):
         for (other, others), (low, high) in zip(outlines[:k], bounds):
             near = (bounds[k][0] < high).all() and (low < bounds[k][1]).all()
-            if near and any(_overlap(a, b) for a, b in product(outline, others)):
+            if near and any(len(clip_convex(a, b)) for a, b in product(outline, others)):
                 raise HouseError(f"{lot.where.removesuffix('.house')}: the house overlaps that of lot {other.name}:"
                                  " move it by x or y, or turn it")
-
-
-def _overlap(a, b):
-    """Whether two convex polygons (n, 2) overlap: no normal of their sides separates them."""
-    for corners in (a, b):
-        sides = np.roll(corners, -1, axis=0) - corners
-        normals = np.column_stack([sides[:, 1], -sides[:, 0]]).T
-        one, two = a @ normals, b @ normals
-        if ((one.max(0) <= two.min(0)) | (two.max(0) <= one.min(0))).any():
-            return False
-    return True

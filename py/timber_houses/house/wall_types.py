@@ -163,14 +163,13 @@ def _check_saws(table, path):
 
 
 def _check_cycles(table, path):
-    if table["friction_share"] is not None:
-        for key in SAWS_STATES:
-            if table[key] is not None:
-                fail(table.at(key), f"{path}.{key}", "does not go with friction_share, the law slip; remove one")
-        if table["residual_share"]:
-            fail(table.at("residual_share"), f"{path}.residual_share",
-                 "does not go with friction_share, the law slip; remove one of them")
-    _check_reloading(table, path)
+    for key in (*SAWS_STATES, "residual_share") if table["friction_share"] is not None else ():
+        if table[key] if key == "residual_share" else table[key] is not None:
+            fail(table.at(key), f"{path}.{key}", "does not go with friction_share, the law slip; remove one of them")
+    if (table["reload_power"] is None) != (table["reload_drift"] is None):
+        fail(table.where, path, "reload_drift and reload_power go together; give both or none")
+    if table["reload_power"] is not None and table["reload_share"] is not None:
+        fail(table.at("reload_share"), f"{path}.reload_share", "does not go with reload_power; remove one of them")
     for level in LEVELS:
         points = envelope(table, level)
         drift, largest = max(points, key=lambda point: point[1])
@@ -188,13 +187,6 @@ def _check_cycles(table, path):
                      f" shear: less than {share:.3g}, got {table['pinched_share']:g}")
 
 
-def _check_reloading(table, path):
-    if (table["reload_power"] is None) != (table["reload_drift"] is None):
-        fail(table.where, path, "reload_drift and reload_power go together; give both or none")
-    if table["reload_power"] is not None and table["reload_share"] is not None:
-        fail(table.at("reload_share"), f"{path}.reload_share", "does not go with reload_power; remove one of them")
-
-
 _CHECKS = {"envelope": _check_envelope, "nails": _check_nails, "saws": _check_saws}
 
 
@@ -209,22 +201,13 @@ def has_rated_walls(data):
 def envelope(table, level):
     """[(drift, shear)] of a wall type from its first point to zero or residual shear. level: of LEVELS, for rated types
     """
-    return _with_residual(_whole_envelope(table, level), table["residual_share"])
-
-
-def _whole_envelope(table, level):
     if table["envelope"] is not None:
-        return _tested(table)
-    if table["nails"] is not None:
-        return _nailed(table)
-    if table["saws"] is not None:
-        return saws.envelope(table["saws"])
-    return _rated(table, LEVELS[level])
-
-
-def _with_residual(points, share):
-    """Points down to this share of the largest shear, which remains beyond the last one. points: the last has none"""
-    residual = share * max(shear for _, shear in points)
+        points = _tested(table)
+    elif table["nails"] is not None:
+        points = _nailed(table)
+    else:
+        points = _rated(table, LEVELS[level]) if table["saws"] is None else saws.envelope(table["saws"])
+    residual = table["residual_share"] * max(shear for _, shear in points)
     kept = list(points)
     while len(kept) > 1 and kept[-2][1] <= residual * (1 + ROUNDING):
         kept.pop()

@@ -76,8 +76,11 @@ def read_project(content, file):
     project = None
     try:
         for event, element in _events(content, file):
+            if event == "start" and (project is None or not project.parts):  # the first one with parts is read
+                project = Project(" ".join(element.get("Name", "").split()) or "frame")
+                continue
             if event == "start":
-                project = _begin(element, project)
+                project.notes["project after the first one"] += 1
                 continue
             if etree.QName(element).localname == "Part" and project:
                 _add_part(project, element, file)
@@ -101,14 +104,6 @@ def _events(content, file):
             raise HouseError(f"{file}:1: a document type (DOCTYPE) is not read; remove it")
         if (name == "Project") == (event == "start") and name != "BTLx":
             yield event, element
-
-
-def _begin(element, project):
-    """The project that is read from here on: the first one with parts."""
-    if project is None or not project.parts:
-        return Project(" ".join(element.get("Name", "").split()) or "frame")
-    project.notes["project after the first one"] += 1
-    return project
 
 
 def _add_part(project, element, file):

@@ -31,7 +31,8 @@ def house_table(project, file):
     """Table of a house file. Warns of what is left out. Raises HouseError."""
     rough, ignored = _pieces(project)
     pieces = fitted(rough)
-    contacts = _contacts(pieces)
+    found = {(i, j): contact_polygon(pieces[i].solid, pieces[j].solid, TOLERANCE) for i, j in near(pieces, ROUNDING)}
+    contacts = {pair: contact[0].mean(0) for pair, contact in found.items() if contact and contact[2] > LEAST_AREA}
     joints, used = _joints(pieces, rough, contacts)
     members, where = _members(pieces, contacts), f"{file}:1"
     named = [(pieces[i].name, pieces[j].name, how) for (i, j), how in joints.items()]
@@ -94,16 +95,9 @@ def _without_slivers(piece):
 # --- joints -----------------------------------------------------------------------------------------------------------
 
 
-def _contacts(pieces):
-    """{(index, index): middle of the common area (3,) [m]} of pieces whose faces meet."""
-    found = {(i, j): contact_polygon(pieces[i].solid, pieces[j].solid, TOLERANCE)
-             for i, j in near(pieces, ROUNDING)}
-    return {pair: contact[0].mean(0) for pair, contact in found.items() if contact and contact[2] > LEAST_AREA}
-
-
 def _joints(pieces, rough, contacts):
     """({(index, index): how the pieces meet}, Counter of the processings that say so). rough: pieces before they were
-    cut apart, of the same indices"""
+    cut apart, of the same indices; contacts: {(index, index): middle of the common area (3,) [m]}"""
     joints, used, mates = dict.fromkeys(contacts, "butt"), Counter(), defaultdict(list)
     for i, j in contacts:
         mates[i].append(j)
@@ -112,18 +106,15 @@ def _joints(pieces, rough, contacts):
     for k, piece in enumerate(rough):
         steps = [step for step in piece.part.processings if step.kind in PAIRED and mates[k]]
         points = [piece.origin + reference_point(step, piece.part.size) @ piece.axes for step in steps]
-        distances = [_distances(before[mate], points) for mate in mates[k] if points]
+        distances = []  # from the points to the mates, 0 inside; too small beyond their edges [m]
+        for mate in mates[k] if points else ():
+            normals, offsets = (np.array(each) for each in zip(*before[mate].planes))
+            distances.append(np.maximum((np.array(points) @ normals.T - offsets).max(1), 0.0))
         for step, nearest, distance in zip(steps, np.argmin(distances, 0), np.min(distances, 0)) if points else ():
             if distance < REACH:
                 joints[tuple(sorted((k, mates[k][nearest])))] = PAIRED[step.kind]
                 used[step.kind] += 1
     return joints, used
-
-
-def _distances(piece, points):
-    """From points (n, 3) to a piece, 0 inside; too small beyond its edges. [m]"""
-    normals, offsets = (np.array(each) for each in zip(*piece.planes))
-    return np.maximum((np.array(points) @ normals.T - offsets).max(1), 0.0)
 
 
 # --- members ----------------------------------------------------------------------------------------------------------
