@@ -93,8 +93,7 @@ def check_layout(plugin, wrapper, record: dict, host: dict, shift: int = 0) -> i
     """Round trips through every member in the module's table; returns their number.
 
     Reads come before writes: a write through a wrong layout would corrupt memory. `shift` [bytes] displaces every
-    compiled read, so that a test can simulate another layout. Raises ImportError that names class and attribute.
-    """
+    compiled read, so that a test can simulate another layout. Raises ImportError that names class and attribute."""
     table = list(enumerate(plugin.layout_fields()))
     for index, (owner, attribute, pointee) in table:
         default = getattr(getattr(wrapper, owner)(), attribute)

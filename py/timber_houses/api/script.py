@@ -53,8 +53,7 @@ def _launch(read, argv, note=lambda fault: None):
     run that it shows. note: called with an InputError that ends it
 
     Bad input, a failed run and a signal end the process with a line on standard error: status 1, 1 and 128 + the
-    signal's number.
-    """
+    signal's number."""
     print_anything()
     try:
         with deferred_interrupt():

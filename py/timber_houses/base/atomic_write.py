@@ -24,8 +24,7 @@ def written_whole(path):
     removed.
 
     The file is created exclusively (no link of that name is followed), with the permissions of the user's umask. Raises
-    OSError.
-    """
+    OSError."""
     path = Path(path)
     with _written_to(path) if _is_stream(path) else _replaced(Path(os.path.realpath(path))) as part:
         yield part

@@ -26,8 +26,7 @@ def read_rows(path):
 
 def csv_text(header, rows):
     """Text of a CSV file: floats with 12 significant digits, zero without a sign; texts as in `inert`. Letters beyond
-    ASCII need a byte order mark for spreadsheets.
-    """
+    ASCII need a byte order mark for spreadsheets."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(header)

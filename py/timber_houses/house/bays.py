@@ -7,9 +7,7 @@ from .structure import Structure, in_storey
 
 def free_bays(description):
     """Names of the braces that can be added, e.g. 'main.brace1.EW.y0.3-4'; one for each bay without brace or opening.
-
-    The foot is at the column nearer to an end of the line; in the middle at the lower node.
-    """
+    The foot is at the column nearer to an end of the line; in the middle at the lower node."""
     names = []
     for structure, storey in _storeys(description):
         lines = in_storey(structure.table["braces"]["lines"], storey)

@@ -13,10 +13,8 @@ TOUCH = 1e-7  # [m] overlaps up to this count as flush; rounding in the builder 
 
 
 def check_house(model):
-    """HouseError for the deepest overlap, a loose end of a column or brace, or an unsupported element.
-
-    Returns the numbers of near and of touching pairs, and the deepest overlap [m], from rounding.
-    """
+    """HouseError for the deepest overlap, a loose end of a column or brace, or an unsupported element. Returns the
+    numbers of near and of touching pairs, and the deepest overlap [m], from rounding."""
     gaps = overlaps(model)
     deepest = min(gaps, key=lambda row: row[2], default=None)
     if deepest and deepest[2] < -TOUCH:

@@ -9,9 +9,8 @@ KINDS = ("column_beam", "brace_beam")
 
 
 def apply_damage(joints, structures, damage):
-    """Mark joints as broken. A region breaks `count` joints of a kind on one wall and storey, at one end: those
-    nearest to the middle of the wall, the southern or western one first.
-    """
+    """Mark joints as broken. A region breaks `count` joints of a kind on one wall and storey, at one end: those nearest
+    to the middle of the wall, the southern or western one first."""
     for i, region in enumerate(damage["regions"]):
         structure = structures[region["structure"] or next(iter(structures))]
         if not any(region[kind] for kind in KINDS):

@@ -36,9 +36,7 @@ class RatedBay:
 
 def diagnose(model):
     """The part `diagnosis` of summaries: the least iw and wall quantity ratio, where they are, and of each structure.
-
-    None for what the rules do not give: a main structure of more than three storeys, or without floor area.
-    """
+    None for what the rules do not give: a main structure of more than three storeys, or without floor area."""
     structures = {group: _structure(model, group) for group, storeys in model.storey_levels.items() if storeys}
     is_rated = _least(dict(list(structures.items())[:1]), "iw")[0] is not None  # the main structure
     rated = structures if is_rated else {}
@@ -82,11 +80,8 @@ def sentence(diagnosis):
 
 
 def comparison(summary):
-    """Sentence on the first structure of a Summary whose index and outcome disagree; '' if none does.
-
-    A structure that stands without an earthquake, or at the end of a run that left strong shaking out, agrees with
-    every index.
-    """
+    """Sentence on the first structure of a Summary whose index and outcome disagree; '' if none does. A structure that
+    stands without an earthquake, or at the end of a run that left strong shaking out, agrees with every index."""
     for name, facts in summary.structures.items():
         iw = _least({name: summary.diagnosis.structures.get(name, {"storeys": {}})}, "iw")[0]
         stands_untested = not facts.collapsed and (not summary.earthquake or summary.missed_shaking is not None)
@@ -181,8 +176,7 @@ def _quarters(bays, axis, plans, storey, needs):
     """[low, high] existing bearing walls over the required quantity of the outer quarters of a storey's extent across
     an axis, for the floor within each. plans: {storey: FloorPlan}
 
-    The extent is the largest one (Notification 1352; compared: fukuicompu.co.jp, manual of ZERO, side parts).
-    """
+    The extent is the largest one (Notification 1352; compared: fukuicompu.co.jp, manual of ZERO, side parts)."""
     across = 1 - axis
     low, high = plans[storey].bounds[:, across]
     quarter = (high - low) / 4
@@ -196,10 +190,8 @@ def _quarters(bays, axis, plans, storey, needs):
 
 
 def _eccentricities(bays, mass):
-    """[Re of each axis]: distance of the centres of mass and rigidity over the elastic radius; None without walls.
-
-    The rigidity of a bay is its wall quantity: bays of a storey have one height.
-    """
+    """[Re of each axis]: distance of the centres of mass and rigidity over the elastic radius; None without walls. The
+    rigidity of a bay is its wall quantity: bays of a storey have one height."""
     sides = {axis: [bay for bay in bays if bay.axis == axis] for axis in (0, 1)}
     sums = {axis: sum(bay.quantity for bay in mine) for axis, mine in sides.items()}
     centre = {axis: sum(bay.quantity * bay.centre[1 - axis] for bay in mine) / sums[axis]
@@ -268,10 +260,8 @@ def brace_multiplier(section):
 
 
 def _uplift(model, group, bays):
-    """Columns whose feet need more tension by the N-value method than their joint has, and the largest need [kN].
-
-    The corrections for the direction of braces are left out.
-    """
+    """Columns whose feet need more tension by the N-value method than their joint has, and the largest need [kN]. The
+    corrections for the direction of braces are left out."""
     columns = {(storey, place): model.element(name) for storey, plan in model.plans[group].items()
                for place, name in plan.columns.items()}
     strengths = _foot_strengths(model)
@@ -285,10 +275,8 @@ def _uplift(model, group, bays):
 
 
 def n_value(columns, key, bays, plans):
-    """N = sum of A B over a column and those above, less L; the larger direction.
-
-    columns: {(storey, (x, y) as laid): ...}; plans: {storey: FloorPlan}
-    """
+    """N = sum of A B over a column and those above, less L; the larger direction. columns: {(storey, (x, y) as laid):
+    ...}; plans: {storey: FloorPlan}"""
     storey, node = key
     stack = [columns[level, node] for level in sorted(plans) if level >= storey and (level, node) in columns]
     corner = [plans[column.storey].is_corner(*column.solid.centroid[:2]) for column in stack]

@@ -6,10 +6,8 @@ DEFAULT = 0.5  # coefficient of a material whose pair with itself is not in the 
 
 
 def own_coefficient(name, law, pairs):
-    """Coefficient [-] of one material: that of its pair with itself; for snow the smallest of all its pairs.
-
-    law: 'timber' or 'snow'; pairs: [(material, material, coefficient)]
-    """
+    """Coefficient [-] of one material: that of its pair with itself; for snow the smallest of all its pairs. law:
+    'timber' or 'snow'; pairs: [(material, material, coefficient)]"""
     alone = [c for a, b, c in pairs if a == b == name] or [DEFAULT]
     return min(alone + [c for a, b, c in pairs if name in (a, b) and law == "snow"])
 

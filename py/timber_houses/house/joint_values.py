@@ -72,10 +72,8 @@ def _check_rule(rule, path, types):
 
 
 def joint_values(data, rule, part=1):
-    """Entries of JointSpec, and `at`, that follow from the house file (checked) and the rule of a joint.
-
-    part: of the rule's fittings that this joint has [-]
-    """
+    """Entries of JointSpec, and `at`, that follow from the house file (checked) and the rule of a joint. part: of the
+    rule's fittings that this joint has [-]"""
     table = data["joint_types"][rule["type"]]
     factor = rule["number"] * rule["share"] * part
     return {"at": table["at"], "type": rule["type"], "kind": rule["kind"], "law": table["law"],

@@ -24,8 +24,7 @@ def find_joints(elements, data, named=None):
 
     Contacts below `joint_search.min_area` get none: a 12 cm column touches the beam beside its own by a strip. Joints
     of a rule at one face of an end share its fittings by their areas: a column end on two crossing beams. HouseError
-    for a rule between structures, or of two named members, that joins none.
-    """
+    for a rule between structures, or of two named members, that joins none."""
     named = named or {}
     contacts = _contacts(elements, data, named)
     used, structures = {key for *_, key, _ in contacts}, {e.group for e in elements if e.kind != "ground"}
@@ -113,10 +112,8 @@ def _joint(a, b, contact, values):
 
 
 def spring_points(polygon, normal):
-    """Four spring points (4, 3) [m] of a contact polygon (n, 3), counter-clockwise about `normal`.
-
-    Of more than four corners, the four with the largest area; of three, these and the middle of the longest side.
-    """
+    """Four spring points (4, 3) [m] of a contact polygon (n, 3), counter-clockwise about `normal`. Of more than four
+    corners, the four with the largest area; of three, these and the middle of the longest side."""
     if len(polygon) == 3:
         following = np.roll(polygon, -1, 0)
         longest = int(np.argmax(np.round(np.linalg.norm(following - polygon, axis=1), 9)))

@@ -38,10 +38,8 @@ def projected_area(element):
 
 
 def _hang_walls(structure, members, load, earlier):
-    """Add the weight [kN/m2] of the outer walls to the columns in them.
-
-    A wall that faces one of the earlier structures without a gap is common to both and counts there.
-    """
+    """Add the weight [kN/m2] of the outer walls to the columns in them. A wall that faces one of the earlier structures
+    without a gap is common to both and counts there."""
     columns = {column.name: column for column in members if column.kind == "column"}
     added = dict.fromkeys(columns, 0.0)
     for storey, plan in structure.plans.items():

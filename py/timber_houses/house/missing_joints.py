@@ -19,8 +19,7 @@ def warn_of_missing_joints(model, data):
 
     Left out: members without a rule that bear on a foundation with less than half of their length, as columns on stones
     do; and pairs with a joint to a common member, unless one of the two ends at the other's face and no common member
-    lies between them.
-    """
+    lies between them."""
     members = [e for e in model.elements if e.group == FRAME and e.kind != "snow"]
     if not members:
         return

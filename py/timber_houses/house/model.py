@@ -92,8 +92,7 @@ class JointSpec:
     """Joint of elements `a` and `b`: springs at the corners of their contact area (paper, 2.4), or one.
 
     kind: 'column_beam', 'brace_beam', 'brace_column', 'floor_beam', 'roof_beam', 'roof_roof', ...; label: name of a
-    joint that is not named after its members, of a wall
-    """
+    joint that is not named after its members, of a wall"""
 
     a: str
     b: str

@@ -53,10 +53,8 @@ class FloorPlan:
         return all(0 <= k < size for k, size in zip(cell, self.floor.shape)) and bool(self.floor[tuple(cell)])
 
     def sides(self, along, at, start, end):
-        """Side of the house of a stretch of a line, whose outer wall it is: floor on one hand only, all along.
-
-        along: 'x' or 'y'; at: position of the line; start, end: of the stretch. Empty inside and off the floor.
-        """
+        """Side of the house of a stretch of a line, whose outer wall it is: floor on one hand only, all along. along:
+        'x' or 'y'; at: position of the line; start, end: of the stretch. Empty inside and off the floor."""
         axis = "xy".index(along)
         edges = np.clip(self.edges[axis], start, end)
         hands = {self._floors(axis, at, middle) for middle in (edges[:-1] + edges[1:])[np.diff(edges) > ROUNDING] / 2}

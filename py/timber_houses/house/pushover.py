@@ -75,8 +75,7 @@ def secant_periods(model, group, curves, drift):
 
     Stiffness of a storey: shear / (drift x height). Beside the walls and braces of `pushover`, columns of width b that
     rock under the weight W above bear W (b / height - drift): their resistance less P-delta. None where columns bear
-    more than walls and braces in a storey: how storeys share the drift decides there.
-    """
+    more than walls and braces in a storey: how storeys share the drift decides there."""
     storeys, masses = sorted(model.storey_levels[group]), level_masses(model, group)
     heights = np.array([np.subtract(*reversed(model.storey_levels[group][storey])) for storey in storeys])
     weights = 1000 * weight_of(np.cumsum(masses[::-1])[::-1])  # [N]

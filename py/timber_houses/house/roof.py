@@ -168,9 +168,7 @@ def carry_roofs(structure, elements, joints):
 
 def _tie_slabs(structure, layer, joints):
     """Move half of a ridge joint's springs down to tie beams at the level of the plates, which take the slabs' thrust.
-
-    The ridge and each tie beam have the stiffness and strength of one fitting.
-    """
+    The ridge and each tie beam have the stiffness and strength of one fitting."""
     slabs = {f"{structure.name}.{slab_name(structure, layer, 'roof', side)}"
              for side in pitched_plan(structure, layer).sides}
     for joint in joints:

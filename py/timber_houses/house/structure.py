@@ -28,10 +28,8 @@ class Layer:
 
 
 class Structure:
-    """Grid, layers and {storey: its layer of columns}; makes elements with its name and source line.
-
-    grid: {'x': positions [m] of the nodes in the world frame, 'y': ...}; a node may be fractional, between two of them
-    """
+    """Grid, layers and {storey: its layer of columns}; makes elements with its name and source line. grid: {'x':
+    positions [m] of the nodes in the world frame, 'y': ...}; a node may be fractional, between two of them"""
 
     def __init__(self, name, table, materials, others):
         self.name, self.table, self.materials = name, table, materials
@@ -50,9 +48,7 @@ class Structure:
 
     def area(self, area=None, others=(), beyond=0.0):
         """(low, high) corners (2,) [m] of a rectangle of grid nodes (None: all), extended by margin and `beyond` [m].
-
-        An edge shared with one of the `others` (areas of the same layer) is not extended.
-        """
+        An edge shared with one of the `others` (areas of the same layer) is not extended."""
         nodes = self._span(area)
         others = [self._span(other) for other in others]
         out = self.table["margin"] + beyond

@@ -33,8 +33,7 @@ TOWN = Record({"name": word(None), "wave": WAVE, "lots": MapOf(LOT, most=MAX_LOT
 class Lot:
     """A house at a place. house: file or name of a shipped house; x, y: of the middle of its plan, east and north [m];
     rotation: of the house, counter-clockwise seen from above [degrees]; snow: depth [m], None: the house file's; where:
-    file and line.
-    """
+    file and line."""
 
     name: str
     house: str

@@ -92,9 +92,7 @@ def carried(storeys, loads):
 
 def wall_load(wall, height):
     """Outer and inner walls of a storey per floor area [kN/m2]. wall: of outer ones [N/m2]; height: of the storey [m]
-
-    The sheet rounds each part up to 10 N/m2.
-    """
+    The sheet rounds each part up to 10 N/m2."""
     whole = PERIMETER * height / FLOOR_AREA
     parts = [(1 - WINDOWS) * whole * wall, (1 - WINDOWS) * whole * WALL_INSULATION, WINDOWS * whole * WINDOW]
     return (sum(10 * _rounded_up(part / 10) for part in parts) + INNER_WALL * height / INNER_HEIGHT) / 1000
@@ -142,8 +140,7 @@ class Requirement:
         """[Wall quantity [cm per m2 of floor]] of the storeys of a part of these floor areas [m2].
 
         A part of fewer storeys than the house is a house of its own (Notification 1352; compared: fukuicompu.co.jp,
-        manual of ZERO, side parts). None beyond three storeys.
-        """
+        manual of ZERO, side parts). None beyond three storeys."""
         count = next((k for k, area in enumerate(areas) if area <= 0), len(areas))
         if not count or len(self.storeys.areas) > 3:
             return []
@@ -195,9 +192,7 @@ def requirement(model, group):
 
 
 def _kind(kinds, chosen, load):
-    """(name, load [N/m2]) of the chosen kind; of none: the lightest kind that weighs as much as the modelled one.
-
-    What is heavier than all of them counts with its own weight.
-    """
+    """(name, load [N/m2]) of the chosen kind; of none: the lightest kind that weighs as much as the modelled one. What
+    is heavier than all of them counts with its own weight."""
     name = chosen or next((name for name, least in kinds.items() if least >= load - 1e-6), "own")
     return name, float(kinds.get(name, load))

@@ -236,10 +236,8 @@ def steepest(points):
 
 
 def multiplier(table):
-    """Wall multiplier of a type: its own, else its allowable shear over that of 1. [-]
-
-    Allowable: of nails as in nails.py, else the lesser of the shear at 1/120 and two thirds of the largest one.
-    """
+    """Wall multiplier of a type: its own, else its allowable shear over that of 1. [-] Allowable: of nails as in
+    nails.py, else the lesser of the shear at 1/120 and two thirds of the largest one."""
     if table["multiplier"] is not None:
         return table["multiplier"]
     if table["nails"] is not None:
@@ -253,8 +251,7 @@ def quasi_multiplier(table, panel):
 
     `panel_share` (boards 0.6, wood lath 1) times the multiplier times the share of the height; a lining has a
     `quasi_multiplier`, as it counts as nothing else. (Notification 1100 as of 2025; compared: stmaki.com, page 2775:
-    gypsum 0.9 x 0.6 x 240 cm / 284.4 cm = 0.45)
-    """
+    gypsum 0.9 x 0.6 x 240 cm / 284.4 cm = 0.45)"""
     base = multiplier(table) if table["quasi_multiplier"] is None else table["quasi_multiplier"]
     return min(QUASI_LIMIT, table["panel_share"] * base * panel)
 

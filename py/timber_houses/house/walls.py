@@ -105,8 +105,7 @@ def _nodes(structure, line, storey, at):
 
 
 def _joints(bay, name, members, data, level):
-    """The two halves of a wall of a type; their labels end in '.plywood.beams', '.plywood.window.beams', ...
-    """
+    """The two halves of a wall of a type; their labels end in '.plywood.beams', '.plywood.window.beams', ..."""
     parts = [bay.opening] * (bay.opening != "none") + ["panel"] * (bay.panel is not None)
     label = ".".join([bay.name, name, *parts])
     low, high = bay.low.solid, bay.high.solid

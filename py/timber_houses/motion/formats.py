@@ -201,10 +201,8 @@ def _plain_csv(path, lines, units):
 
 
 def _csv_columns(lines):
-    """(index of the row of names, names, {name: unit or None}, delimiter), or None without such a row.
-
-    It is the first row, or the comment before the first row where that has numbers (as of numpy.savetxt).
-    """
+    """(index of the row of names, names, {name: unit or None}, delimiter), or None without such a row. It is the first
+    row, or the comment before the first row where that has numbers (as of numpy.savetxt)."""
     for index, line in enumerate(lines):
         if line.startswith(COMMENT) or not line.strip(FILLING):
             continue

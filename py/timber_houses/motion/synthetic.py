@@ -167,10 +167,8 @@ def _pulses(random):
 
 
 def _pulse(centre, period, phase, cycles):
-    """Acceleration of a velocity pulse of unit amplitude (Mavroeidis and Papageorgiou 2003, Eq 3). (n,) [1/s]
-
-    v = 1/2 (1 + cos(w t / cycles)) cos(w t + phase) for |w t| < pi cycles, w = 2 pi / period, t from `centre`.
-    """
+    """Acceleration of a velocity pulse of unit amplitude (Mavroeidis and Papageorgiou 2003, Eq 3). (n,) [1/s] v = 1/2
+    (1 + cos(w t / cycles)) cos(w t + phase) for |w t| < pi cycles, w = 2 pi / period, t from `centre`."""
     t, w = _times() - centre, 2.0 * np.pi / period
     slow = w * t / cycles
     carrier, bell = w * t + phase, 0.5 * (1.0 + np.cos(slow))

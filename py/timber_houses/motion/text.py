@@ -128,8 +128,7 @@ def table(path, lines, first, columns, delimiter, texts=()):
 
     texts: columns of other content: 0
 
-    Raises RecordError for a row of another length or a value that is not a finite number.
-    """
+    Raises RecordError for a row of another length or a value that is not a finite number."""
     rows = []
     for number, line in enumerate(lines, first):
         if line.startswith(COMMENT):

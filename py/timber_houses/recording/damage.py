@@ -26,8 +26,7 @@ TOUCH = 0.05  # height of the lowest corner of snow that touches the ground. [m]
 @dataclass(frozen=True)
 class Level:
     """Top of a storey. structure: name; marks: numbers of the elements at this level; their masses [kg]; height of the
-    storey [m].
-    """
+    storey [m]."""
 
     structure: str
     marks: list

@@ -19,8 +19,7 @@ def residual(history):
 
     Residual drift: absolute mean over the last whole periods of oscillation, so that it does not depend on the phase at
     the end; without a whole period the mean of the last SHORT_WINDOW. Amplitude: half the range of the drift in the
-    same periods, or in the last SLOW_WINDOW.
-    """
+    same periods, or in the last SLOW_WINDOW."""
     if not history.samples:
         return [], []
     residuals, amplitudes, time = [], [], history.time

@@ -26,8 +26,7 @@ class Storeys(Series):
 
     time [s]; base_shear_ns, base_shear_ew [N]; ground_acceleration_ns, _ew, _ud [m/s2]; for each storey k from 1:
     shear_nsk, shear_ewk [N] and the absolute acceleration of the level above it, acceleration_nsk, acceleration_ewk,
-    acceleration_udk [m/s2]. Accelerations within BAND.
-    """
+    acceleration_udk [m/s2]. Accelerations within BAND."""
 
     __slots__ = ()
 
@@ -52,10 +51,8 @@ class Storeys(Series):
 
 
 def storeys(samples, masses, motion=None):
-    """Storeys of a run. motion: frames.Motion or None; masses (P,) of parts [kg].
-
-    samples (F + 1, 1 + 3 P): time [s], momenta of the parts relative to the ground, east, north, up [kg m/s]
-    """
+    """Storeys of a run. motion: frames.Motion or None; masses (P,) of parts [kg]. samples (F + 1, 1 + 3 P): time [s],
+    momenta of the parts relative to the ground, east, north, up [kg m/s]"""
     samples, masses = np.asarray(samples, float), np.asarray(masses, float)
     time, steps = samples[:, 0], np.diff(samples[:, 0])
     steps = np.where(steps > 0, steps, np.nan)[:, None]

@@ -105,8 +105,7 @@ class Frames:
     """The file's content. time, position, orientation, load, broken: arrays, or lists during a run.
 
     scenario: '' of a user's scene; summary: Summary, of a town TownSummary; breaks, peaks, columns: dictionaries of
-    /breaks, /joint_peaks and /columns; None before the run's end, the last three and storeys also of a town.
-    """
+    /breaks, /joint_peaks and /columns; None before the run's end, the last three and storeys also of a town."""
 
     title: str
     scenario: str

@@ -26,8 +26,7 @@ TEXT_ENTRY = 16  # of a string, in its table: length, address, number. [bytes]
 @dataclass(frozen=True)
 class Group:
     """tables: {name: (kind, length, ...)}, each length being a number, or a text that stands for one in the whole file;
-    attributes: {name: kind}, single values
-    """
+    attributes: {name: kind}, single values"""
 
     tables: dict = field(default_factory=dict)
     attributes: dict = field(default_factory=dict)
@@ -36,8 +35,7 @@ class Group:
 @contextmanager
 def opened(path, layout, missing=""):
     """h5py.File of a path. missing: remedy for a missing file. Raises RunError for what is no file, one of FAULTS for
-    what is not of the layout.
-    """
+    what is not of the layout."""
     with record(path, missing) as file, h5py.File(f"/proc/self/fd/{file.fileno()}", "r") as tables:
         _Inspection(file.fileno(), layout).file(tables)
         yield tables

@@ -19,8 +19,7 @@ SIDES = {"east": (1, 0), "north": (0, 1), "west": (-1, 0), "south": (0, -1)}
 
 def summary(name, results, record):
     """TownSummary. results: {name of a lot: (its Summary, (3, 3) axes of the house, LotResult)}; record: Record of the
-    motion that reaches the town
-    """
+    motion that reaches the town"""
     events = [replace(event, facts=_in_town(event.facts, axes), lot=lot) for lot, (one, axes, _) in results.items()
               for event in one.events if event.kind in SHOWN]
     lots = [one for one, *_ in results.values()]
@@ -43,8 +42,7 @@ def _in_town(facts, axes):
 
 def town_side(side, axes):
     """The compass side of the town nearest to a side of a house, or to each of several, 'south+west'; other words as
-    they are.
-    """
+    they are."""
     def nearest(word):
         return max(SIDES, key=lambda other: np.dot(SIDES[other], axes[:2, :2] @ SIDES[word]))
     return "+".join(nearest(word) if word in SIDES else word for word in side.split("+"))

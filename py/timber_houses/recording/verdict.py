@@ -54,8 +54,7 @@ FALLEN_ANGLE = math.radians(45)  # inclination beyond which a column has fallen.
 @dataclass(frozen=True, kw_only=True)
 class Structure:
     """Facts on a structure, and its verdict. Drifts [-]; settled: whether the one at the end is a residual drift;
-    numbers of joints and lost columns since the start.
-    """
+    numbers of joints and lost columns since the start."""
 
     verdict: str = field(init=False)
     leans: bool = field(init=False)

@@ -81,8 +81,7 @@ def enclose(path, content):
 
 def load(path, identity, kind=dict):
     """Load the saved scene; returns `progress` as saved, and the enclosed samples or b"". kind: of progress, as of
-    json_types. Raises RunError for damage or another identity.
-    """
+    json_types. Raises RunError for damage or another identity."""
     body, samples, seal = _read(path, kind)
     for key in sorted(seal["identity"].keys() | identity.keys()):
         there, here = seal["identity"].get(key), identity.get(key)

@@ -27,9 +27,8 @@ EXCLUDED_BY_ENSEMBLE = {
 
 @dataclass(frozen=True)
 class OptionSource:
-    """Where options come from. name: function that names an option; earthquake: remedy without an earthquake;
-    pictures: function that gives the command for the pictures of a folder
-    """
+    """Where options come from. name: function that names an option; earthquake: remedy without an earthquake; pictures:
+    function that gives the command for the pictures of a folder"""
 
     name: Callable = command_option
     earthquake: str = "add --quake or --record FILE"
@@ -41,10 +40,8 @@ SCRIPT = OptionSource(earthquake="use a script of a run with an earthquake")
 
 @dataclass(frozen=True)
 class RunOptions(MotionRequest):
-    """Options of a run, those of its ground motion included.
-
-    name: of a run whose script gives BY_SCRIPT, or of a lot; town: its file; ground_motion: in place of a record.
-    """
+    """Options of a run, those of its ground motion included. name: of a run whose script gives BY_SCRIPT, or of a lot;
+    town: its file; ground_motion: in place of a record."""
 
     house: str = option(str, f"house or BTLx file, or a shipped house: {', '.join(shipped_houses())}", "HOUSE",
                         group="main")

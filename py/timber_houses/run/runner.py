@@ -172,9 +172,8 @@ class Run(Stoppable):
         self.write()
 
     def next_stop(self):
-        """Step of the next frame. The last checkpoint is one step before the end: energies and contact points are
-        known only after a step, so a resumed run has one to make.
-        """
+        """Step of the next frame. The last checkpoint is one step before the end: energies and contact points are known
+        only after a step, so a resumed run has one to make."""
         left = self.steps - O.iter
         return O.iter + min(max(1, left - 1), self.chunk - O.iter % self.chunk)
 

@@ -92,10 +92,8 @@ def energy_balance(terms, created):
 
     input: work of the ground motion, energy of imposed velocities and potential energy released by gravity since the
     start. residual: stored, kinetic and dissipated energy minus the input; residual_fraction: its absolute value over
-    the input, None without input.
-    created: energy that contact points and joints returned beyond what they had stored; contained in `residual`.
-    Raises RunError for numbers that are not finite.
-    """
+    the input, None without input. created: energy that contact points and joints returned beyond what they had stored;
+    contained in `residual`. Raises RunError for numbers that are not finite."""
     terms = {"ground_motion": 0.0, IMPOSED: 0.0, **dict.fromkeys(DISSIPATED, 0.0), **terms}
     supplied = terms["ground_motion"] + terms[IMPOSED] - terms["gravity"]
     residual = queries.energy_residual(terms)

@@ -83,8 +83,7 @@ def natural_modes(share=0.05, bodies=None, initial=False):
     """Modes of effective mass east or north >= `share` of the free mass, unstable ones and long periods first.
 
     Only the SEARCHED lowest modes are looked at. Empty without springs. bodies: ids of those that move, default all;
-    initial: as in springs()
-    """
+    initial: as in springs()"""
     free = [b for b in O.bodies if b is not None and not b.state.blockedDOFs and (bodies is None or b.id in bodies)]
     mass, linearised = sum(b.state.mass for b in free), springs(initial)
     free = _held(linearised, free)
@@ -146,8 +145,7 @@ def _by_convention(vectors, momentum):
     """Shapes (n, k) of modes of one omega^2, of which any rotation is a solution.
 
     The first has all of the effective mass in the direction where that is largest, the second all that is left in the
-    next direction, and so on. vectors (n, k); momentum (n, 3): of unit velocities of the ground
-    """
+    next direction, and so on. vectors (n, k); momentum (n, 3): of unit velocities of the ground"""
     shares = vectors.T @ momentum
     size = np.linalg.norm(shares, axis=0)
     directions = np.argsort(-np.round(size / max(size.max(), 1e-300), 6), kind="stable")

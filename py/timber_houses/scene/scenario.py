@@ -29,12 +29,10 @@ class Scenario:
     None; snow_depth [m].
 
     scale: factor on the motion [-]; delay: time at which it begins [s]; dt, duration [s]; until_collapse, until_rest:
-    whether a collapse ends the run, whether the rest of its wreck does; joint_damping: ratio of sway and joints
-    [-], wall_level: of walls of a rated
-    multiplier, None for both: the house's own; disturb: seed of the house's disturbance, None: none; options: of
-    `engines.engines`; record, other_walls: of the summary, on the motion and on walls of the other level; lot: of a
-    town.
-    """
+    whether a collapse ends the run, whether the rest of its wreck does; joint_damping: ratio of sway and joints [-],
+    wall_level: of walls of a rated multiplier, None for both: the house's own; disturb: seed of the house's
+    disturbance, None: none; options: of `engines.engines`; record, other_walls: of the summary, on the motion and on
+    walls of the other level; lot: of a town."""
 
     name: str
     house: str
@@ -86,10 +84,8 @@ def build(scenario):
 
 
 def damp_sway(model):
-    """Give the walls of a model the damping times with which its structures sway with the damping ratio of its law.
-
-    The scene in YADE is replaced by the house at rest under its weight.
-    """
+    """Give the walls of a model the damping times with which its structures sway with the damping ratio of its law. The
+    scene in YADE is replaced by the house at rest under its weight."""
     O.reset()
     ids = add_elements(model)
     O.engines = engines.engines(joints=add_joints(model, ids), **law_options(model.law))

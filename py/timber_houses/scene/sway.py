@@ -29,8 +29,7 @@ def damping_times(ratio, bodies, chosen):
     """(J,) damping times with which the sway of a structure has a damping ratio. [s]
 
     Zero where contacts alone have the ratio, and for a structure without stable sway. bodies: ids of those of the
-    structure; chosen: (J,) bool, its joints among those of the scene
-    """
+    structure; chosen: (J,) bool, its joints among those of the scene"""
     sway = sway_modes(bodies)
     if not sway:
         return np.zeros(len(chosen))

@@ -102,12 +102,10 @@ def _read(path):
 def run_missing(tasks, jobs=None, report=print, retry=True):
     """Run the tasks that are not done, `jobs` at a time (default: one per core); returns {task: summary or None}.
 
-    report   called with one line for each run that ends
-    retry    whether failed runs are started again
+    report   called with one line for each run that ends retry    whether failed runs are started again
 
     Failed runs do not stop the others. Raises RunError without YADE, and KeyboardInterrupt after SIGINT or SIGTERM,
-    when the started runs have saved their checkpoints.
-    """
+    when the started runs have saved their checkpoints."""
     tasks = list(dict.fromkeys(tasks))
     missing = [task for task in tasks if task.is_missing(retry)]
     for task in set(tasks).difference(missing):

@@ -20,10 +20,8 @@ def tasks(options):
 
 
 def complete(options):
-    """Run what is missing of an ensemble and write its results.
-
-    Raises RunError, also when some runs have failed, KeyboardInterrupt after a signal, when checkpoints are saved.
-    """
+    """Run what is missing of an ensemble and write its results. Raises RunError, also when some runs have failed,
+    KeyboardInterrupt after a signal, when checkpoints are saved."""
     planned = tasks(options)
     missing = [task for task in planned if task.is_missing(True)]
     if missing:

@@ -70,8 +70,7 @@ def share(count, runs):
 
 def representative(summaries):
     """Number of the run that stands for the ensemble {number: summary}: of the most frequent, then worst outcome,
-    nearest to the median of the largest drift, of collapsed runs of the collapse time; the first of equal ones.
-    """
+    nearest to the median of the largest drift, of collapsed runs of the collapse time; the first of equal ones."""
     frequent = outcomes(summaries.values())
     outcome = max(frequent, key=lambda state: (frequent[state], STATES.index(state)))
     chosen = {number: summary for number, summary in summaries.items() if summary.verdict == outcome}

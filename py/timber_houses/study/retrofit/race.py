@@ -112,8 +112,7 @@ class Comparison:
         """Whether collapses are compared: in half of the pairs or more, a house has collapsed, and no drift is known.
 
         Which of the two houses has is of no influence, so that this choice does not change how often equal houses are
-        found different.
-        """
+        found different."""
         return 2 * int((self.collapses | self.house_collapses).sum()) >= len(self.differences)
 
     @property
