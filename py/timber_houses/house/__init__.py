@@ -4,8 +4,7 @@
     model = build_house(load_house("C2"), snow_depth=1.0)
     model.elements, model.joints, model.counts()
 """
-from .bay_name import BayName
-from .bays import free_bays, free_wall_bays
+from .bays import BayName, free_bays, free_wall_bays
 from .build import build_house
 from .check import check_house, overlaps
 from .description import Description, load_house, shipped_houses

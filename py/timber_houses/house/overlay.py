@@ -3,7 +3,7 @@
 import re
 
 from ..base.input_file import shown
-from .bay_name import BayName
+from .bays import BayName
 from .description import checked, house_path
 from .errors import HouseError
 from .limits import MAX_DEPTH

@@ -18,12 +18,14 @@ from ..motion import GroundMotion, displacement
 from ..recording import frames
 from ..recording.damage import SIDES, DamageSurvey, Level, State
 from ..recording.events import Collapse, EventLog, FirstBreak, OwnWeight, StructureFallen, Tilt
+from ..recording.history import DIRECTIONS
 from ..recording.judge import Judge, Judged
+from ..recording.quantities import AXES
 from ..recording.samples import Samples
-from ..recording.summary_parts import ModesAt
+from ..recording.summary_parts import Mode, ModesAt
 from ..recording.verdict import UNDAMAGED
+from ..scene.modes import natural_modes
 from ..scene.scenario import level_marks, sampled_columns
-from .modal import modes_now
 
 SETTLED = 1.0  # time at which the house has settled under its weight, and its first natural modes are taken. [s]
 HARMFUL = 0.5  # ground acceleration that damages no sound house: half of the design earthquake. [m/s2]
@@ -31,6 +33,9 @@ SPENT = 0.2  # ground acceleration that moves no wreck: friction holds 2 m/s2 an
 REST_SPEED = 0.02  # largest speed of a body at rest in a wreck: its sway in such a ground motion stays below. [m/s]
 ROLLING = 0.01  # share of the free mass that may still move in a wreck at rest: single members that roll away. [-]
 REST_TIME = 3.0  # a run ends when its wreck has been at rest for so long, and the motion is spent. [s]
+ROUNDING = 1e-6
+"""Displacement of the levels over the largest one of a mode in which they do not move [-]: rounding gives 1e-15,
+modes of a house 0.6 and more."""
 BREAKS = ("time", "joint", "spring", "cause", "force")  # attributes of a JointBreak, columns of frames.h5's /breaks
 O = yw.Omega()
 
@@ -136,6 +141,23 @@ def moving_share():
     """Share of the free mass in bodies faster than REST_SPEED. [-]"""
     free = [(b.state.mass, b.state.vel.norm()) for b in O.bodies if b is not None and not b.state.blockedDOFs]
     return sum(mass for mass, speed in free if speed > REST_SPEED) / sum(mass for mass, _ in free)
+
+
+def modes_now(levels):
+    """ModesAt of the scene as it is now; an unstable mode has no period. levels: of the main structure."""
+    mass = sum(b.state.mass for b in O.bodies if b is not None and not b.state.blockedDOFs)
+    modes = []
+    for mode in natural_modes():
+        share = {axis: round(float(mode.mass[AXES[axis]] / mass), 4) for axis in DIRECTIONS}
+        moved = np.array([level.displacement(mode.shape[:, :3]) for level in levels])
+        largest = max(moved[:, :2].flat, key=abs, default=1.0)
+        if abs(largest) < ROUNDING * abs(mode.shape[:, :3]).max():  # of another structure
+            continue
+        shape = {f"storey{k}": {axis: round(float(row[AXES[axis]] / largest), 4) for axis in DIRECTIONS}
+                 for k, row in enumerate(moved, 1)}
+        period = round(mode.period, 4) if mode.omega2 > 0 else None
+        modes.append(Mode(period_s=period, direction=max(share, key=share.get), mass_share=share, shape=shape))
+    return ModesAt(time_s=round(O.time, 6), modes=modes)
 
 
 class Observer:

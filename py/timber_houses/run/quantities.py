@@ -19,7 +19,6 @@ from ..recording.history import DIRECTIONS
 from ..recording.summary_parts import (LargestForce, LargestUplift, LargestUtilisation, Modes, Quantities, Shear,
                                        StoreyQuantities)
 from . import observer
-from .modal import modes_now
 
 JOINTS, COLUMNS = "joints.csv", "columns.csv"
 NAMES = (quantities.NAME, JOINTS, COLUMNS)  # files that `Tables.write` makes
@@ -162,7 +161,7 @@ def summarised(tables, observed):
     return Quantities(
         until_s=fall,
         modes=Modes(before=observed.modes,
-                    after=None if collapsed or observed.modes is None else modes_now(observed.main_levels)),
+                    after=None if collapsed or observed.modes is None else observer.modes_now(observed.main_levels)),
         **storey_peaks(tables.storeys.until(fall) if collapsed else tables.storeys, part_masses(observed)),
         largest_utilisation=_largest(LargestUtilisation, tables.joints, "utilisation", "joint", "value", 4),
         largest_pull=_largest(LargestForce, breakable, "pull", "joint", "force"),
