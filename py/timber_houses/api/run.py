@@ -78,7 +78,6 @@ def run(house, motion=None, snow=None, duration=None, out=None, **options):
 
 
 def _complete(options):
-    """Run to the end; returns the RunResult."""
     from ..run import session
     from ..run.plan import planned
     from ..run.runner import Interrupted

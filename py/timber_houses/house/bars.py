@@ -57,7 +57,6 @@ class Parts:
         return self.made[name]
 
     def path(self, name):
-        """Path of a part in the house file."""
         return f"frame.{'plates' if name in self.plates else 'members'}.{name}"
 
     def find(self, reference, where, path):
@@ -257,7 +256,6 @@ def placements(steps, path):
 
 
 def _step(step):
-    """(matrix, shift) of one step of a repeat."""
     if step["by"] is not None:
         return np.eye(3), np.array(step["by"])
     matrix = np.eye(3)

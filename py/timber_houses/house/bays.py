@@ -71,7 +71,6 @@ def free_wall_bays(description, kind):
 
 
 def _storeys(description):
-    """(Structure, storey) of all storeys of a house."""
     structures = {}
     for name, table in description.data["structures"].items():
         structures[name] = Structure(name, table, description.data["materials"], structures)

@@ -66,7 +66,6 @@ class Frame:
         return []
 
     def _add(self, name, entry):
-        """Elements of all copies of a part."""
         copies, is_plate = self.parts[name], name in self.table["plates"]
         if len(self.elements) + len(copies) > MAX_ELEMENTS:
             fail(entry.where, self.parts.path(name), f"more than {MAX_ELEMENTS} elements; make the frame smaller")

@@ -35,7 +35,6 @@ def kinds_of(rule):
 
 
 def first(kind):
-    """Sorts the kinds of the two members of a joint."""
     return (*END_JOINED, kind).index(kind)
 
 

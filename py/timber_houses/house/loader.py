@@ -57,7 +57,6 @@ def _chain(path):
 
 
 def _table(path, nodes_left):
-    """(Table, number of YAML values) of one file."""
     if path.suffix.lower() == BTLX:
         return btlx.btlx_table(_content(path), path.name), 0
     return parse_table(text_of(path), path.name, nodes_left)

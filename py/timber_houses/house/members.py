@@ -126,7 +126,6 @@ def require_column(on_line, node, place):
 
 
 def _group_nodes(structure, group):
-    """Nodes (x, y) of one column group."""
     if group["at"] is not None:
         nodes = [tuple(pair) for pair in group["at"]]
     elif group["grid"] is not None:

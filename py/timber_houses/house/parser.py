@@ -140,7 +140,6 @@ class _Parser(yaml.SafeLoader):
         return table
 
     def _scalar(self, node):
-        """None, bool, int, float or str."""
         kind, text = node.tag.removeprefix(TAG), node.value
         if kind in ("null", "str"):
             return None if kind == "null" else text
@@ -198,7 +197,6 @@ _Writer.add_implicit_resolver(TAG + "float", _EXPONENT, list("-+.0123456789"))
 
 
 def plain(value):
-    """Tables and lists as dict and list."""
     if isinstance(value, dict):
         return {key: plain(entry) for key, entry in value.items()}
     return [plain(entry) for entry in value] if isinstance(value, list) else value

@@ -69,7 +69,6 @@ class Plan:
                 *self.outline(side)]
 
     def edge(self, side):
-        """Vertical plane above the eave of `side`."""
         d, e = self.distance(side)
         return (*d, 0.0), e
 
@@ -93,7 +92,6 @@ class Plan:
 
 
 def opposite(plane):
-    """The other side of a plane."""
     normal, offset = plane
     return tuple(-v for v in normal), -offset
 

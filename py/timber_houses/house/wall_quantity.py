@@ -170,7 +170,6 @@ class Requirement:
 
 
 def requirement(model, group):
-    """Requirement of a structure of a HouseModel."""
     code, levels = model.code[group], model.storey_levels[group]
     roofs = model.of_kind("roof", group=group)
     areas = tuple(model.plans[group][storey].area for storey in sorted(levels))

@@ -37,7 +37,6 @@ def warn_of_constant_part(motion):
 
 
 def _texts(samples, scale):
-    """A text for each component with a constant part."""
     means, peaks = scale * samples.mean(axis=0), np.abs(scale * samples).max(axis=0)
     for name, k, effect in AXES:
         if abs(means[k]) > max(LARGEST_SHARE * peaks[k], VISIBLE * peaks.max(), ROUNDING):

@@ -85,7 +85,6 @@ def finite(text, where):
 
 
 def _with_e(text):
-    """Fortran's exponents, 0.1D-03, as 0.1E-03."""
     return re.sub(r"(?<=[0-9.])[dD](?=[-+0-9])", "E", text) if "D" in text or "d" in text else text
 
 

@@ -65,7 +65,6 @@ def read(path, run):
 
 
 def _all(path, run):
-    """As `read`, with the record of the run."""
     with record(path) as file:
         first = next(_complete(file), None)
         if first and (first[0], first[2]) != (RUN, run.encode()):

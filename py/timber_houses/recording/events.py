@@ -118,7 +118,6 @@ class EventLog:
         self.events = decode(list[Event], list(events), "events")
 
     def sorted(self):
-        """Events in the order of time."""
         return sorted(self.events, key=lambda event: event.time_s)
 
     def encoded(self):

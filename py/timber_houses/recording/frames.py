@@ -231,7 +231,6 @@ def _load(file):
 
 
 def _values(group):
-    """{name: array, or list of strings}."""
     return {name: list(data.asstr()[()]) if h5py.check_string_dtype(data.dtype) else data[()]
             for name, data in group.items()}
 
@@ -244,7 +243,6 @@ def _split(flat, start):
 
 
 def _elements(values):
-    """Elements of the tables of /elements."""
     begins = {name: values.pop(name) for name in ("vertex_start", "face_start", "element_start")}
     faces = [list(map(int, face)) for face in _split(values["faces"], begins["face_start"])]
     values |= {"vertices": _split(values["vertices"], begins["vertex_start"]),

@@ -66,7 +66,6 @@ def decisive_files(folder):
 
 
 def of_arrays(arrays):
-    """Of numpy arrays: types, shapes and bits."""
     total = sha256()
     for array in arrays:
         total.update(f"{array.shape}{array.dtype}".encode())

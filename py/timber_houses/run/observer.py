@@ -53,7 +53,6 @@ def describe_elements(model):
 
 
 def describe_joints(model):
-    """frames.Joints of the scene."""
     sheets = sheet_numbers(model)
     specs, joints = model.joints, list(find_engine(yw.JointEngine).joints)
     described = record.describe_joints(joints, range(len(model.elements)))
@@ -64,7 +63,6 @@ def describe_joints(model):
 
 
 def describe_sheets(model):
-    """frames.Sheets of the house."""
     number, sheets = element_numbers(model), list(sheet_numbers(model))
     ends = (np.array([number[getattr(sheet, end)] for sheet in sheets], "i4") for end in ("low", "high"))
     return frames.Sheets([sheet.type for sheet in sheets], [sheet.opening for sheet in sheets], *ends)
@@ -102,7 +100,6 @@ def versions():
 
 
 def element_numbers(model):
-    """{name of an element: its number}."""
     return {element.name: k for k, element in enumerate(model.elements)}
 
 
@@ -203,7 +200,6 @@ class Observer:
 
     @property
     def main_levels(self):
-        """damage.Level of the main structure, from below."""
         return [level for level in self.survey.levels if level.structure == self.survey.structures[0]]
 
     @property

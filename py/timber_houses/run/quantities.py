@@ -39,7 +39,6 @@ def part_masses(observed):
 
 
 def storeys(observed, samples):
-    """recording.quantities.Storeys of the run."""
     momenta = samples.momenta(slice(len(observed.survey.levels), None))
     return quantities.storeys(momenta, part_masses(observed), observer.describe_motion())
 

@@ -271,7 +271,6 @@ class Run(Stoppable):
 
 
 def explain_writing(options):
-    """Context for writing results. Raises RunError."""
     folder, remedy = options.folder, "repeat the command with --resume"
     return os_errors(lambda fault: f"{folder}: the results cannot be written ({fault}); {remedy}")
 
@@ -286,7 +285,6 @@ def clear(options, *more):
 
 @contextmanager
 def explain_removal(options):
-    """Context for removing files. Raises RunError."""
     try:
         yield
     except OSError as problem:

@@ -186,7 +186,6 @@ def end_alone(run):
 
 @contextmanager
 def name_lot(lot):
-    """Context in which errors name the lot."""
     try:
         yield
     except InputError as problem:

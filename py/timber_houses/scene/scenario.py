@@ -53,7 +53,6 @@ class Scenario:
     lot: str | None = None
 
     def build_model(self):
-        """HouseModel of the run. Raises HouseError."""
         model = build_house(load_house(self.house), snow_depth=self.snow_depth, wall_level=self.wall_level)
         if self.joint_damping is not None:
             model.law = {**model.law, "joint_damping": self.joint_damping}

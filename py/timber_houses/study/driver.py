@@ -62,7 +62,6 @@ class Task:
 
     @property
     def error(self):
-        """Error message of a failed run, None for others."""
         recorded = (_read(self.folder / END) or {}).get("error")
         return recorded if recorded and self.summary is None else None
 
@@ -197,7 +196,6 @@ class _Process:
         return f"done{again} in {self.age:.0f} s"
 
     def _error(self):
-        """Error message of the run, or None."""
         if self.child.returncode:
             return self.task.error or f"exit status {self.child.returncode}; see {self.task.folder / LOG}"
         if self.task.summary is None:

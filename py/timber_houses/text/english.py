@@ -152,7 +152,6 @@ def residual(summary):
 
 
 def residual_name(summary):
-    """Name of the drift at the end."""
     return "residual drift" if summary.main.settled else "drift at the end"
 
 
@@ -189,14 +188,12 @@ def columns(summary):
 
 
 def snow(summary):
-    """Mass of the snow, and whether some has fallen."""
     first = summary.first_time("snow_fallen")
     falling = "" if first is None else f", falling from {first:.1f} s"
     return f"snow {summary.snow_mass_kg / 1000:.1f} t{falling}" if summary.snow else ""
 
 
 def record(summary):
-    """Constant part of the record, if it has one."""
     return f"the record's {summary.record.note}" if summary.record and summary.record.note else ""
 
 

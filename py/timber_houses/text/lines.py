@@ -76,7 +76,6 @@ def before(quantities):
 
 
 def accelerations(quantities):
-    """Largest horizontal acceleration of any level."""
     values = [(storey.acceleration[axis], name, axis) for name, storey in quantities.storeys.items()
               for axis in storey.acceleration if axis != "ud"]
     if not values:
@@ -106,6 +105,5 @@ def periods(summary):
 
 
 def events(summary, most):
-    """The most important events in the order of time."""
     chosen = sorted(summary.events, key=lambda one: (IMPORTANT.index(one.kind), one.time_s))[:most]
     return [f"{one.time_s:.2f} s: {event(one)}." for one in sorted(chosen, key=lambda one: one.time_s)]

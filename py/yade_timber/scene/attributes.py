@@ -190,7 +190,6 @@ def _unknown(cls, name):
 
 
 def _wrong_type(cls, attribute, name, value):
-    """Message about a value of a wrong type."""
     match = REGISTERED.search(attribute.__doc__ or "")
     kind = match.group(1).strip() if match else "value"
     return f"{cls.__name__}.{name} = {shown(value)}: it must be {FORMS.get(kind, f'a {kind}')}"

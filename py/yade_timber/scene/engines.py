@@ -106,7 +106,6 @@ def ground_motion_engine(motion, scale=1.0, start=0.0):
 
 
 def joint_engine(joints):
-    """JointEngine with these TimberJoints."""
     engine = yw.JointEngine()
     for joint in arguments.instance("engines: joints", joints, (list, tuple), "a list of TimberJoint or None"):
         engine.append(arguments.instance("engines: joints", joint, yw.TimberJoint, "a list of TimberJoint or None"))

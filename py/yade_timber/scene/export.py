@@ -70,7 +70,6 @@ def polyhedra(caller):
 
 
 def describe_material(material):
-    """Dictionary of a TimberMat or SnowMat."""
     common = {"density": material.density, "friction": material.friction}
     if isinstance(material, yw.SnowMat):
         return {"law": "snow", "stiffness_per_kg": material.stiffnessPerMass, **common}

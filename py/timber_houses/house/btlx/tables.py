@@ -188,7 +188,6 @@ def _items(numbers, where):
 
 
 def _pad(piece, shift):
-    """Table of the foundation under a column."""
     (low, high), where = piece.solid.bounds + shift, piece.part.where
     middle = (low[:2] + high[:2]) / 2
     return Table({"from": _items([*middle, 0.0], where), "to": _items([*middle, low[2]], where), "kind": "foundation",

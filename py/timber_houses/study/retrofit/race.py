@@ -162,7 +162,6 @@ class Result:
 
     @property
     def motions(self):
-        """Number of motions compared."""
         return len(self.comparison.differences)
 
     @property

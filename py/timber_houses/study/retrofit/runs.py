@@ -37,7 +37,6 @@ class Ranking:
 
     @property
     def plan(self):
-        """race.rounds of the ranking."""
         return rounds(len(self.motions), len(self.candidates))
 
     @property
@@ -115,7 +114,6 @@ class Ranking:
         return runs
 
     def _rows(self, pairs):
-        """Rows of [(Candidate, motion)]."""
         return [self._row(candidate, *motion) for candidate, motion in pairs]
 
     def _row(self, candidate, name, motion):
