@@ -120,7 +120,7 @@ class _Lot:
 
 
 def _table(kind, lots, table):
-    """Elements, Joints or Sheets of the town from those of the lots. table: their name among the attributes of Frames"""
+    """Elements, Joints or Sheets of the town from those of the lots. table: their name in Frames"""
     columns = {}
     for key in vars(getattr(lots[0].run, table)):
         parts = [lot.column(table, key, getattr(getattr(lot.run, table), key)) for lot in lots]

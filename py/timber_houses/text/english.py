@@ -61,21 +61,17 @@ def early(summary):
 
 def unconverged(summary):
     """Steps that did not converge, if what they lack could be more than CONVERGED of the energy put in; else empty."""
-    solver = summary.solver
-    if solver.unconverged_steps * solver.worst_change_j <= CONVERGED * summary.energy.input:
-        return ""
-    return f"{solver.unconverged_steps} steps did not converge (largest change {solver.worst_change_j:.2g} J)"
+    steps, change = summary.solver.unconverged_steps, summary.solver.worst_change_j
+    lacks = steps * change > CONVERGED * summary.energy.input
+    return f"{steps} steps did not converge (largest change {change:.2g} J)" if lacks else ""
 
 
 def weight(summary):
     """Damage before the shaking, which an event describes; without an earthquake the cause. Empty without damage."""
     if summary.earthquake:
         return next((own_weight(event.facts) for event in summary.events if event.kind == "own_weight"), "")
-    return f"damaged by {its_weight(summary.snow)}" if summary.main.verdict != verdict.UNDAMAGED else ""
-
-
-def its_weight(has_snow):
-    return "its own weight" + " and snow" * has_snow
+    snow = " and snow" * summary.snow
+    return f"damaged by its own weight{snow}" if summary.main.verdict != verdict.UNDAMAGED else ""
 
 
 def ensemble(summary):
@@ -202,16 +198,13 @@ def record(summary):
 
 def event(one):
     """Clause on an Event; of a town with its lot."""
-    return _in_lot(one, PHRASES[one.kind](one.facts))
+    return f"{one.lot}: " * (one.lot is not None) + PHRASES[one.kind](one.facts)
 
 
 def short(one):
     """The same in two or three words, for a fall of a structure or of snow."""
-    return _in_lot(one, f"{one.facts.structure} has fallen" if one.kind == "structure_fallen" else "snow has fallen")
-
-
-def _in_lot(one, text):
-    return text if one.lot is None else f"{one.lot}: {text}"
+    fallen = one.facts.structure if one.kind == "structure_fallen" else "snow"
+    return f"{one.lot}: " * (one.lot is not None) + f"{fallen} has fallen"
 
 
 def first_break(facts):
@@ -224,7 +217,7 @@ def own_weight(facts):
     main = next(iter(facts.structures), None)
     parts = [("" if name == main else f"{name}: ") + _damage(one) for name, one in facts.structures.items()
              if one.verdict != verdict.UNDAMAGED]
-    return f"damaged before the shaking, by {its_weight(facts.snow)}: {'; '.join(parts)}"
+    return f"damaged before the shaking, by its own weight{' and snow' * facts.snow}: {'; '.join(parts)}"
 
 
 def _damage(facts):
@@ -316,9 +309,8 @@ COUPLED = 0.5  # smaller over larger share of the mass of the two horizontal dir
 
 def mode_name(mode):
     """'N-S', or of a coupled mode 'coupled N-S and E-W', the direction of more mass first."""
-    shares = {axis: mode.mass_share[axis] for axis in ("ns", "ew")}
-    other = min(shares, key=shares.get)
-    if shares[other] < COUPLED * shares[mode.direction] or other == mode.direction:
+    other = min(("ns", "ew"), key=mode.mass_share.get)
+    if mode.mass_share[other] < COUPLED * mode.mass_share[mode.direction] or other == mode.direction:
         return direction_name(mode.direction)
     return f"coupled {direction_name(mode.direction)} and {direction_name(other)}"
 

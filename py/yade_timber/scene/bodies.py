@@ -76,12 +76,6 @@ def snow(density=_SNOW.density, stiffness_per_kg=_SNOW.stiffnessPerMass, frictio
                       friction=arguments.number("snow: friction", friction), label=arguments.text("snow: label", label))
 
 
-def to_digits(corners):
-    """Corners to 13 digits of their extent [m]: equal elements at different positions share their geometry."""
-    digit = 10.0 ** (np.floor(np.log10(np.abs(corners).max())) - 12)
-    return np.round(corners / digit) * digit + 0.0  # no negative zeros
-
-
 def polyhedron(vertices, material=None, fixed=False, radius=None, name="", kind="", color=None):
     """Body of any convex shape; append it to ``O.bodies``.
 
@@ -155,7 +149,9 @@ def principal_body(vertices, density, radius, **look):
     principal = axes.conjugate().toRotationMatrix() * inertia * axes.toRotationMatrix()
 
     body = yw.Body()
-    body.shape = yw.RoundedPolyhedron(vertices=[Vector3(*v) for v in to_digits(corners)], radius=radius, **look)
+    digit = 10.0 ** (np.floor(np.log10(np.abs(corners).max())) - 12)  # equal elements anywhere share their geometry
+    rounded = np.round(corners / digit) * digit + 0.0  # no negative zeros
+    body.shape = yw.RoundedPolyhedron(vertices=[Vector3(*v) for v in rounded], radius=radius, **look)
     body.state.mass = density * volume
     body.state.inertia = density * Vector3(principal[0, 0], principal[1, 1], principal[2, 2])
     body.state.pos = body.state.refPos = Vector3(*origin) + centroid

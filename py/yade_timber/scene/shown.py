@@ -16,7 +16,8 @@ def install(classes):
     for cls in classes:
         cls.__repr__ = cls.__str__ = LINES.get(cls.__name__, _line)
         if cls.__name__ == "TimberJoint":
-            cls.springs = property(_springs(cls.springs.fget), doc=cls.springs.__doc__)
+            springs = cls.springs
+            cls.springs = property(lambda joint: Springs(springs.fget(joint)), doc=springs.__doc__)
 
 
 class Springs(list):
@@ -27,10 +28,6 @@ class Springs(list):
                 f"  {'broken' if spring['broken'] else 'intact'}"
                 for k, spring in enumerate(self))
         return "\n".join(["spring  force x, y, z on body 1 [N]           stretch [mm]  state", *rows])
-
-
-def _springs(springs):
-    return lambda joint: Springs(springs(joint))
 
 
 def _line(part):
