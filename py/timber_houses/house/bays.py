@@ -90,7 +90,6 @@ def _bays(structure, storey):
 
 def _walled(structure, storey, only_open=False):
     """{(along, at, lower node, higher node)} of the bays with walls in a storey. only_open: with a window or a door"""
-    walls = [line for line in in_storey(structure.table["walls"], storey)
-             if line["opening"] != "none" or not only_open]
+    walls = [line for line in in_storey(structure.table["walls"], storey) if line["opening"] != "none" or not only_open]
     return {bay for _, bay in _bays(structure, storey) for wall in walls
             if bay[0] == wall["along"] and bay[1] in wall["at"] and wall["from"] <= bay[2] and bay[3] <= wall["to"]}

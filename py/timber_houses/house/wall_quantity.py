@@ -175,8 +175,7 @@ def requirement(model, group):
     areas = tuple(model.plans[group][storey].area for storey in sorted(levels))
     covered = sum(max(0.0, low - high) for low, high in zip(areas, (*areas[1:], 0.0)))
     surface, cover = (sum(map(area, roofs)) for area in (upper_area, projected_area))
-    top = max((e.vertices[:, 2].max() for e in model.of_kind("beam", group=group)),
-              default=levels[max(levels)][1])
+    top = max((e.vertices[:, 2].max() for e in model.of_kind("beam", group=group)), default=levels[max(levels)][1])
     rise = max((roof.vertices[:, 2].max() for roof in roofs), default=top) - top
     weight = weight_of(sum(roof.mass for roof in roofs))
     own, own_load = (weight / surface, 1000 * weight / surface) if surface > 0 else (0.0, 0.0)

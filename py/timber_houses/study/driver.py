@@ -49,8 +49,7 @@ class Task:
 
     def request(self):
         """RunOptions of its process: those that decide results, and those with which the driver runs it."""
-        indecisive = {name: each.default for name, each in options(RunOptions).items()
-                      if not each.metadata["decides"]}
+        indecisive = {name: each.default for name, each in options(RunOptions).items() if not each.metadata["decides"]}
         own = {"out": self.folder, "resume": True, "or_anew": True, "no_views": True, "quiet": True}
         return replace(self.options, **{**indecisive, "no_frames": self.options.no_frames, **own})
 

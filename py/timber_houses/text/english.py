@@ -292,8 +292,7 @@ def ratio(drift, below="below "):
     if drift < SMALL:
         return f"{below}1/1000"
     number = round(1 / drift)
-    number += any(drift < limit.drift and number == round(1 / limit.drift)
-                  for limit in (*verdict.LIMITS, verdict.LOSS))
+    number += any(drift < limit.drift and number == round(1 / limit.drift) for limit in (*verdict.LIMITS, verdict.LOSS))
     return f"1/{number}" if drift <= 0.5 else f"{drift:.2f}"
 
 

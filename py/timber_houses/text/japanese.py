@@ -120,8 +120,7 @@ def early(summary):
     onset, end = summary.missed_shaking or (None, None)
     if onset is None:
         return ""
-    return (f"強い揺れ（{onset:.1f} 秒）の前に計算を終了" if summary.duration_s < onset
-            else f"強い揺れ（{onset:.1f}～{end:.1f} 秒）の途中で計算を終了")
+    return (f"強い揺れ（{onset:.1f} 秒）の前に計算を終了" if summary.duration_s < onset else f"強い揺れ（{onset:.1f}～{end:.1f} 秒）の途中で計算を終了")
 
 
 def ensemble(summary):

@@ -48,8 +48,7 @@ def read_table(path):
         if any(cell.endswith(",") for cell in cells):
             raise BatchError(f"{path.name}:{number}: values end in commas; {MIXED}")
         cells = _named(cells, heads, f"{path.name}:{number}")
-        above = {head: _resolved(cell, above.get(head), f"{path.name}:{number}, column {head}")
-                 for head, cell in cells}
+        above = {head: _resolved(cell, above.get(head), f"{path.name}:{number}, column {head}") for head, cell in cells}
         rows.append(_row({head: cell for head, cell in above.items() if cell != "*"}, path, number))
     _check_repeated(rows)
     return rows
@@ -74,8 +73,7 @@ def _row(cells, path, number):
         del values["record"]
     values |= {name: ";".join(_beside(part.strip(), path.parent) for part in values[name].split(";"))
                for name in ("record", "then") if name in values}
-    source = OptionSource(lambda column: f"{place}, column {column}:",
-                          f"the column record is {NO_EARTHQUAKE}")
+    source = OptionSource(lambda column: f"{place}, column {column}:", f"the column record is {NO_EARTHQUAKE}")
     return Row(RunOptions(quake=not calm, source=source, **values), HouseChanges(**changes),
                cells.get(DESCRIPTION, ""), place, number)
 
