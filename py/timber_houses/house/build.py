@@ -84,15 +84,6 @@ def _lean(elements, structures, plumb):
         element.move(element.vertices + plumb["drift"] * rise[:, None] * direction)
 
 
-def _plans(by_name, structure):
-    """{storey: FloorPlan} at mid height of the storey's columns, which may lean. by_name: {name: element}"""
-    plans = {}
-    for storey, plan in structure.plans.items():
-        place, name = next(iter(plan.columns.items()), (None, None))
-        plans[storey] = plan.moved(by_name[name].solid.centroid[:2] - place) if name else plan
-    return plans
-
-
 def _ground(data, structures):
     """Fixed box with its top at z = 0 under the middle of the first structure."""
     ground = data["ground"]
@@ -109,14 +100,16 @@ def _ground(data, structures):
 
 
 def _model(description, elements, joints, structures, depth):
-    data, by_name, walls = description.data, {element.name: element for element in elements}, {}
+    data, by_name, walls, plans = description.data, {element.name: element for element in elements}, {}, {}
     for s in structures.values():
-        own = s.table["loads"]["wall"]
+        own, plans[s.name] = s.table["loads"]["wall"], {}
         walls[s.name] = data["loads"]["wall"] if own is None else own
+        for storey, plan in s.plans.items():  # at mid height of the storey's columns, which may lean
+            place, name = next(iter(plan.columns.items()), (None, None))
+            plans[s.name][storey] = plan.moved(by_name[name].solid.centroid[:2] - place) if name else plan
     return HouseModel(data["name"], data["description"], elements, joints,
                       {k: dict(v) for k, v in data["materials"].items()},
                       [(*pair["between"], pair["coefficient"]) for pair in data["friction"]], dict(data["law"]), depth,
                       {s.name: s.levels for s in structures.values()},
                       {s.name: s.grid for s in structures.values() if isinstance(s, Grid)},
-                      {s.name: _plans(by_name, s) for s in structures.values()},
-                      {name: {**data["diagnosis"], "wall_load": load} for name, load in walls.items()})
+                      plans, {name: {**data["diagnosis"], "wall_load": load} for name, load in walls.items()})

@@ -7,7 +7,7 @@ from ..base.input_file import is_file, is_folder, shown
 from ..base.remedies import nearest
 from .errors import HouseError
 from .friction import check_friction
-from .joint_values import check_joint_rules, check_joint_types, check_named_joints
+from .joint_values import check_joint_rules, check_joint_types
 from .layout import FRAME, HOUSE, MAX_SNOW, MAX_WOOD, MIN_SNOW
 from .loader import load_table, shipped_houses, shipped_paths
 from .parser import Table
@@ -50,8 +50,7 @@ def checked(table, path):
              f" wood, got {wood['density']:g}; give other materials another name")
     check_friction(data)
     check_joint_types(data["joint_types"])
-    check_joint_rules(data["joints"], data["joint_types"])
-    check_named_joints(data["frame"], data["joint_types"])
+    check_joint_rules(data)
     check_wall_types(data["wall_types"])
     require_snow_depth(data["snow"]["depth"], f"{data['snow'].at('depth')}: snow.depth")
     return data

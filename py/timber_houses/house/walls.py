@@ -76,11 +76,18 @@ def sheathe(structure, elements, data, level):
 
 
 def _bays(structure, line, by_name):
-    """Bays of a line of the house file in all its storeys and positions."""
+    """Bays of a line of the house file in all its storeys and positions, between columns at its first and last node."""
     along, bays = line["along"], []
     for storey in line["storeys"] or structure.storeys:
         for at in line["at"]:
-            nodes = _nodes(structure, line, storey, at)
+            on_line = nodes_on_line(column_plan(structure, storey), along, at)
+            place = f"{structure.name}: walls along {along} at {ACROSS[along]} node {at:g}, storey {storey}"
+            for key in ("from", "to"):
+                require_column(on_line, line[key], f"{line.at(key)}: {place}")
+            if line["from"] >= line["to"]:
+                raise HouseError(f"{line.at('from')}: {structure.name}: a wall runs from {line['from']:g} to"
+                                 f" {line['to']:g}; 'from' must be below 'to'")
+            nodes = [node for node in on_line if line["from"] <= node <= line["to"]]
             places = [(node, at) if along == "x" else (at, node) for node in nodes]
             columns = [by_name[f"{structure.name}.column{storey}.x{x:g}y{y:g}"] for x, y in places]
             start = f"{structure.name}.wall{storey}.{line_name(along, at)}"
@@ -89,19 +96,6 @@ def _bays(structure, line, by_name):
                          line.where)
                      for first, last, low, high in zip(nodes, nodes[1:], columns, columns[1:])]
     return bays
-
-
-def _nodes(structure, line, storey, at):
-    """Nodes with columns on a line from its first to its last node, which must be among them."""
-    along = line["along"]
-    on_line = nodes_on_line(column_plan(structure, storey), along, at)
-    place = f"{structure.name}: walls along {along} at {ACROSS[along]} node {at:g}, storey {storey}"
-    for key in ("from", "to"):
-        require_column(on_line, line[key], f"{line.at(key)}: {place}")
-    if line["from"] >= line["to"]:
-        raise HouseError(f"{line.at('from')}: {structure.name}: a wall runs from {line['from']:g} to {line['to']:g};"
-                         " 'from' must be below 'to'")
-    return [node for node in on_line if line["from"] <= node <= line["to"]]
 
 
 def _joints(bay, name, members, data, level):

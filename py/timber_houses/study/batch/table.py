@@ -47,8 +47,13 @@ def read_table(path):
                              f" {_remedy(first, line)}")
         if any(cell.endswith(",") for cell in cells):
             raise BatchError(f"{path.name}:{number}: values end in commas; {MIXED}")
-        cells = _named(cells, heads, f"{path.name}:{number}")
-        above = {head: _resolved(cell, above.get(head), f"{path.name}:{number}, column {head}") for head, cell in cells}
+        for head, cell in zip(heads, cells):
+            if head == "*" != cell:  # an empty column that a spreadsheet adds has the head '*' as well
+                raise BatchError(f"{path.name}:{number}: the value '{cell}' is in a column without a name")
+            if cell == "=" and head not in above:
+                raise BatchError(f"{path.name}:{number}, column {head}: '=' repeats the line above, and there is none")
+        above = {head: above[head] if cell == "=" else cell.strip("'\"") for head, cell in zip(heads, cells)
+                 if head != "*"}
         rows.append(_row({head: cell for head, cell in above.items() if cell != "*"}, path, number))
     _check_repeated(rows)
     return rows
@@ -115,13 +120,6 @@ def _csv_cells(line):
     return [cell.strip() or "*" for cell in next(csv.reader([line], skipinitialspace=True))]
 
 
-def _named(cells, heads, where):
-    """[(head, cell)] of a line, without the empty columns that a spreadsheet adds, whose head is '*' as well."""
-    for cell in (cell for cell, head in zip(cells, heads) if head == "*" and cell != "*"):
-        raise BatchError(f"{where}: the value '{cell}' is in a column without a name")
-    return [(head, cell) for head, cell in zip(heads, cells) if head != "*"]
-
-
 def _check_heads(heads, where):
     heads = [head for head in heads if head != "*"]
     for head in heads:
@@ -131,12 +129,6 @@ def _check_heads(heads, where):
             raise BatchError(f"{where}: column '{head}' is given twice")
     if "house" not in heads:
         raise BatchError(f"{where}: no column 'house'")
-
-
-def _resolved(cell, above, where):
-    if cell == "=" and above is None:
-        raise BatchError(f"{where}: '=' repeats the line above, and there is none")
-    return above if cell == "=" else cell.strip("'\"")
 
 
 def _check_repeated(rows):

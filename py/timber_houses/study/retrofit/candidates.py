@@ -34,14 +34,11 @@ def candidates(house, snow, kinds=USUAL_KINDS, texts=("",), group="bay"):
     """Candidates of these kinds whose names contain one of the texts. snow [m]; group: of GROUPS. Raises HouseError."""
     description = load_house(house)
     model = build_house(description, check=False)
-    measures = in_bays if group == "bay" else in_walls
-    chosen = []
-    if "brace" in kinds:
-        chosen += measures(model, free_bays(description))
-    if "wall" in kinds:
-        chosen += measures(model, buildable(house, free_wall_bays(description, SHEATHING)))
-    if "fitting" in kinds:
-        chosen += fittings(description, model)
+    bays = free_bays(description) if "brace" in kinds else []
+    bays += buildable(house, free_wall_bays(description, SHEATHING)) if "wall" in kinds else []
+    chosen = in_walls(model, bays) if group == "wall" else [
+        Candidate(name, bay_text(model, BayName.read(name)), HouseChanges(braces=(name,))) for name in bays]
+    chosen += fittings(description, model) if "fitting" in kinds else []
     if "snow" in kinds and snow > 0:
         chosen.append(Candidate("snow_cleared", "snow cleared from the roofs", options={"snow": 0.0}))
     return [candidate for candidate in chosen if any(text in candidate.name for text in texts)]
@@ -77,11 +74,6 @@ def fittings(description, model):
             found.append(Candidate(f"double_{name}", f"double fittings: {name.replace('_', ' ')}",
                                    HouseChanges(set=doubled)))
     return found
-
-
-def in_bays(model, names):
-    """A measure for each brace or wall. names: in the order of free_bays"""
-    return [Candidate(name, bay_text(model, BayName.read(name)), HouseChanges(braces=(name,))) for name in names]
 
 
 def in_walls(model, names):
