@@ -32,8 +32,8 @@ class _Callable(_ModuleType):
 
 
 for _package, _function in ((house, House), (motion, _ground_motion), (run, _run)):
-    _package.__class__, _package._function = _Callable, _function
-    _package.__doc__, _package.__signature__ = _function.__doc__, _signature(_function)
+    _package.__class__ = _Callable
+    vars(_package).update(_function=_function, __doc__=_function.__doc__, __signature__=_signature(_function))
 
 
 def __dir__():

@@ -6,6 +6,7 @@ Element k of the HouseModel is body k of the scene, joint k is joint k of the Jo
 from collections import namedtuple
 from dataclasses import dataclass
 from operator import attrgetter
+from typing import Any
 
 import numpy as np
 import yade.wrapper as yw
@@ -81,7 +82,8 @@ COLUMN_HEADER = {"name": "column", "structure": "structure", "storey": "storey",
                  "north": "north [m]", "uplift": "uplift [m]", "pull": "pull [N]", "utilisation": "utilisation [-]",
                  "state": "state"}
 """{attribute of a row: column} of joints.csv and columns.csv."""
-JointRow, ColumnRow = namedtuple("JointRow", JOINT_HEADER), namedtuple("ColumnRow", COLUMN_HEADER)
+JointRow: Any = namedtuple("JointRow", JOINT_HEADER)
+ColumnRow: Any = namedtuple("ColumnRow", COLUMN_HEADER)
 
 
 def joint_rows(observed, peaks):

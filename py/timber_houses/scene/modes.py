@@ -168,12 +168,12 @@ def stiffness_matrix(linearised, rows, count):
     for e, sign in ((0, -1), (1, 1)):
         blocks.append(_geometric(linearised.arm[:, e], sign * linearised.force))
         places.append(number[:, [e, e]])
-    blocks, places = np.concatenate(blocks), np.concatenate(places)
-    free = (places >= 0).all(1)  # without blocks of fixed bodies
-    blocks, places, inner = blocks[free], places[free], np.arange(6)
-    row = np.broadcast_to(6 * places[:, 0, None, None] + inner[:, None], blocks.shape)
-    column = np.broadcast_to(6 * places[:, 1, None, None] + inner, blocks.shape)
-    return sparse.coo_matrix((blocks.ravel(), (row.ravel(), column.ravel())), shape=(6 * count, 6 * count)).tocsc()
+    place, inner = np.concatenate(places), np.arange(6)
+    free = (place >= 0).all(1)  # without blocks of fixed bodies
+    block, place = np.concatenate(blocks)[free], place[free]
+    row = np.broadcast_to(6 * place[:, 0, None, None] + inner[:, None], block.shape)
+    column = np.broadcast_to(6 * place[:, 1, None, None] + inner, block.shape)
+    return sparse.coo_matrix((block.ravel(), (row.ravel(), column.ravel())), shape=(6 * count, 6 * count)).tocsc()
 
 
 def _geometric(arm, force):

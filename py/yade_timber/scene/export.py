@@ -101,8 +101,8 @@ def describe_joint(joint):
     """Dictionary of a TimberJoint; points: ends of the springs on the first element. Law slip: its stretches, plastic
     in the world and largest [m]; law wall: the history of each spring."""
     state = O.bodies[joint.id1].state
-    law = {"envelope": [list(point) for point in joint.envelope],
-           **{name: getattr(joint, attribute(name)) for name in PARAMETERS[joint.law]}}
+    law: dict = {"envelope": [list(point) for point in joint.envelope],
+                 **{name: getattr(joint, attribute(name)) for name in PARAMETERS[joint.law]}}
     if joint.law == "slip":
         law |= {"plastic": [list(state.ori * p) for p in joint.plasticStretches],
                 "largest": list(joint.largestStretches)}

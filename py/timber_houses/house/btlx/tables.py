@@ -61,7 +61,7 @@ def _pieces(project):
         for place in part.places:
             copies[label] += 1
             name = label if copies[label] == 1 else f"{label}-copy{copies[label]}"
-            origin, x, y = place[0] - base, *place[1:]  # x and y at nearly a right angle
+            origin, (_, x, y) = place[0] - base, place  # x and y at nearly a right angle
             x = x - (x @ y) * y  # y as stated, which all parts of a wall or roof share
             x = x / np.linalg.norm(x)
             axes = np.array([x, y, np.cross(x, y)])
