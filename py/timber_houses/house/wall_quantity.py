@@ -122,9 +122,6 @@ def _rounded_up(value):
     return math.ceil(round(value, 9))
 
 
-# --- of a model -------------------------------------------------------------------------------------------------------
-
-
 @dataclass(frozen=True)
 class Requirement:
     """Of a structure by a rule: its storeys and loads, the class of its roof, kinds of the loads."""

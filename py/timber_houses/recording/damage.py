@@ -66,8 +66,6 @@ class DamageSurvey:
         self._upright = _vertical(e.orientation[self._columns])
         self._loose_at_start = self.loose_columns(State(e.position, e.orientation, np.where(j.damaged, j.springs, 0)))
 
-    # --- joints -------------------------------------------------------------------------------------------------------
-
     def count_joints(self, chosen=None):
         """JointCounts without wall sheets. chosen: (J,) bool, default all"""
         chosen = np.ones(len(self.joints.kind), bool) if chosen is None else chosen
@@ -103,8 +101,6 @@ class DamageSurvey:
             damaged_at_start=self.count_joints(self._damaged),
         )
 
-    # --- columns ------------------------------------------------------------------------------------------------------
-
     def fallen_columns(self, state):
         """(C,) bool for each column: inclined by more than FALLEN_ANGLE from its direction at the start."""
         return (_vertical(state.orientation[self._columns]) * self._upright).sum(1) < math.cos(FALLEN_ANGLE)
@@ -125,8 +121,6 @@ class DamageSurvey:
         """(C,) bool for each column: it has fallen, or become loose, since the start."""
         present = ~np.isnan(state.position[self._columns, 0])
         return present & (self.fallen_columns(state) | self.loose_columns(state) & ~self._loose_at_start)
-
-    # --- structures and snow ------------------------------------------------------------------------------------------
 
     def by_structure(self, state, judged):
         """{name: verdict.Structure}, the main one first; the residual drift is that of the last sample.

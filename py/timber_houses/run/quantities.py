@@ -27,9 +27,6 @@ AXES = quantities.AXES
 O = yw.Omega()
 
 
-# --- storeys ----------------------------------------------------------------------------------------------------------
-
-
 def part_masses(observed):
     """(P,) masses of the main structure's parts, the Sampler's groups after the levels. [kg]"""
     sampler, first = find_engine(yw.Sampler), len(observed.survey.levels)
@@ -72,9 +69,6 @@ def _shears(table, name):
     return Shear(sustained=sustained, peak=peak)
 
 
-# --- joints and columns -----------------------------------------------------------------------------------------------
-
-
 JOINT_HEADER = {"name": "joint", "kind": "kind", "storey": "storey", "side": "side", "utilisation": "utilisation [-]",
                 "pull": "pull [N]", "shear": "shear [N]", "opening": "opening [m]", "strength": "strength [N]",
                 "per": "strength of", "broken": "broken springs [-]", "state": "state"}
@@ -115,9 +109,6 @@ def column_feet(observed):
         rows.append(ColumnRow(element.name, element.group, element.storey, x, y, uplift, pull, load,
                               "fallen" if fallen else "loose" if loose else "standing"))
     return sorted(rows, key=lambda row: -row.uplift)
-
-
-# --- summary and files ------------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)

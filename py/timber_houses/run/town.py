@@ -63,8 +63,6 @@ class TownRun(Stoppable):
         finally:
             compiled.swap_scene(before)
 
-    # --- steps --------------------------------------------------------------------------------------------------------
-
     def complete(self):
         """All remaining steps, then the results. Lots whose physics fails end there; the others go on. Raises
         PhysicsError at the end, Interrupted after a signal."""
@@ -109,8 +107,6 @@ class TownRun(Stoppable):
                     run.save()
             raise Interrupted(self.signal, max(scene.time for scene in self.scenes))
         return left
-
-    # --- results ------------------------------------------------------------------------------------------------------
 
     def write(self):
         """Write the results of all lots, the table of houses, and the pictures of the town. Raises PhysicsError of the

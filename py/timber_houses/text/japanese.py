@@ -137,9 +137,6 @@ def place_in_ensemble(place):
     return f"{place.runs} 回の計算の {place.run} 番目"
 
 
-# --- events -----------------------------------------------------------------------------------------------------------
-
-
 def event(one):
     text = PHRASES[one.kind](one.facts)
     return text if one.lot is None else f"{one.lot}：{text}"
@@ -181,9 +178,6 @@ PHRASES = {
 }
 
 
-# --- words ------------------------------------------------------------------------------------------------------------
-
-
 def direction_name(key):
     return DIRECTIONS.get(key, key)
 
@@ -196,8 +190,6 @@ def below(drift):
     """A drift in the notation of engineers: 1/85, 1/1000 未満."""
     return f"{ratio(drift, '')}{' 未満' if drift < SMALL else ''}"
 
-
-# --- page for the owner of a house ------------------------------------------------------------------------------------
 
 MEANING = {"undamaged": "補修が必要な被害は予想されません。",
            "repairable": "補修できる被害（仕上げのひび割れ、接合部のゆるみ）です。専門家の点検を受けてください。",

@@ -47,9 +47,6 @@ def house_table(project, file):
                   "frame": Table(frame, where)}, where)
 
 
-# --- pieces -----------------------------------------------------------------------------------------------------------
-
-
 def _pieces(project):
     """(a Piece for each place of each part, Counter of the processings without volume); coordinates from the origin of
     the first one on."""
@@ -92,9 +89,6 @@ def _without_slivers(piece):
     return piece
 
 
-# --- joints -----------------------------------------------------------------------------------------------------------
-
-
 def _joints(pieces, rough, contacts):
     """({(index, index): how the pieces meet}, Counter of the processings that say so). rough: pieces before they were
     cut apart, of the same indices; contacts: {(index, index): middle of the common area (3,) [m]}"""
@@ -115,9 +109,6 @@ def _joints(pieces, rough, contacts):
                 joints[tuple(sorted((k, mates[k][nearest])))] = PAIRED[step.kind]
                 used[step.kind] += 1
     return joints, used
-
-
-# --- members ----------------------------------------------------------------------------------------------------------
 
 
 def _members(pieces, contacts):
@@ -192,9 +183,6 @@ def _pad(piece, shift):
     middle = (low[:2] + high[:2]) / 2
     return Table({"from": _items([*middle, 0.0], where), "to": _items([*middle, low[2]], where), "kind": "foundation",
                   "section": _items(high[:2] - low[:2] + 2 * PAD, where), "fixed": True}, where)
-
-
-# --- lines for the user -----------------------------------------------------------------------------------------------
 
 
 def _lines(project, rough, pieces, ignored, used):
