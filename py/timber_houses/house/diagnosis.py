@@ -215,7 +215,11 @@ def _mass_centre(model, group, storey):
 def _bays(model, group, largest):
     """RatedBays of a structure. largest: sum of the multipliers of a bay [-]"""
     totals, quasi = Counter(), Counter()
-    for low, high, multiplier, panels in [*_sheets(model, group), *_braces(model, group)]:
+    sheets = [joint.sheet for joint in model.joints
+              if joint.kind == WALL_COLUMN and joint.group == group and not joint.broken]
+    walls = [(model.element(sheet.low), model.element(sheet.high), sheet.multiplier, sheet.quasi_multiplier)
+             for sheet in sheets]
+    for low, high, multiplier, panels in [*walls, *_braces(model, group)]:
         columns = tuple(sorted((low, high), key=lambda column: column.name))
         totals[columns] += multiplier
         quasi[columns] += panels
@@ -226,14 +230,6 @@ def _bays(model, group, largest):
         bays.append(RatedBay(columns, multiplier, int(np.argmax(np.abs(high - low))), multiplier * length,
                              min(quasi[columns], largest - multiplier) * length, (low + high) / 2))
     return bays
-
-
-def _sheets(model, group):
-    """(column, column, multiplier, quasi-bearing multiplier) of walls that count."""
-    for joint in model.joints:
-        if joint.kind == WALL_COLUMN and joint.group == group and not joint.broken:
-            sheet = joint.sheet
-            yield model.element(sheet.low), model.element(sheet.high), sheet.multiplier, sheet.quasi_multiplier
 
 
 def _braces(model, group):

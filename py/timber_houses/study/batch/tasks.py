@@ -32,15 +32,6 @@ def task_of(row, folder):
     return Task(folder, replace(row.options, house=house, no_frames=True))
 
 
-def write_house(row, folder):
-    """Write the house file of a row that changes its house. Raises HouseError, OSError."""
-    house, changes = row.options.house, row.changes
-    data = changed_house(house, changes.set, changes.braces, changes.strength, row.where)
-    path = Path(folder) / row.name / HOUSE
-    make_folder(path.parent)
-    write_text(path, f"# House {Path(house).stem} with changes\n{house_text(data)}")
-
-
 def check_rows(rows, folder):
     """Refuse rows that cannot be run; files of changed houses are written. Raises BatchError, OSError."""
     for row in rows:
@@ -57,7 +48,10 @@ def _check_houses(rows, folder):
     for row in rows:
         with _located(row):
             if row.changes != HouseChanges():
-                write_house(row, folder)
+                house, changes, path = row.options.house, row.changes, Path(folder) / row.name / HOUSE
+                data = changed_house(house, changes.set, changes.braces, changes.strength, row.where)
+                make_folder(path.parent)
+                write_text(path, f"# House {Path(house).stem} with changes\n{house_text(data)}")
             variant = row.options.house, row.changes, row.options.snow, row.options.walls
             if variant not in built:
                 options = task_of(row, folder).options

@@ -70,12 +70,6 @@ def _not_zero(differences):
     return differences[differences != 0]
 
 
-def is_lower(differences):
-    """Whether the differences are negative by the ranks that `signed_rank` compares."""
-    differences = _not_zero(differences)
-    return float(np.sign(differences) @ scipy.stats.rankdata(np.abs(differences))) < 0
-
-
 def holm(values, count):
     """p values corrected for `count` tests by Holm's method, of which those that are not given have p = 1."""
     order, corrected = np.argsort(values), np.empty(len(values))
@@ -126,7 +120,10 @@ class Comparison:
     @property
     def is_better(self):
         """Direction of the difference that `p` belongs to."""
-        return self.collapses.sum() < self.house_collapses.sum() if self.by_collapses else is_lower(self.differences)
+        if self.by_collapses:
+            return self.collapses.sum() < self.house_collapses.sum()
+        differences = _not_zero(self.differences)  # by the ranks that `signed_rank` compares
+        return float(np.sign(differences) @ scipy.stats.rankdata(np.abs(differences))) < 0
 
 
 def compare(entry, house, motions=None):
@@ -185,17 +182,12 @@ def ranking(entries, house, tests):
     finalists = [entry for entry in entries if entry.dropped is None and not entry.failed]
     compared = {id(entry): compare(entry, house, tests) for entry in finalists}
     corrected = dict(zip(compared, holm([one.p for one in compared.values()], len(compared))))
-    results = [_result(entry, compared.get(id(entry)) or compare(entry, house), corrected.get(id(entry)))
-               for entry in entries]
+    results = []
+    for entry in entries:
+        comparison, p = compared.get(id(entry)) or compare(entry, house), corrected.get(id(entry))
+        words = (f"a run failed: {entry.failed}" if entry.failed
+                 else f"not tested: dropped after {entry.dropped} motions" if p is None
+                 else NO_DIFFERENCE if p >= SIGNIFICANCE else "better" if comparison.is_better else "worse")
+        results.append(Result(entry, comparison, p, words))
     return sorted(results, key=lambda result: (bool(result.entry.failed), -(result.entry.dropped or math.inf),
                                                result.comparison.mean))
-
-
-def _result(entry, comparison, p):
-    if entry.failed:
-        words = f"a run failed: {entry.failed}"
-    elif p is None:
-        words = f"not tested: dropped after {entry.dropped} motions"
-    else:
-        words = NO_DIFFERENCE if p >= SIGNIFICANCE else "better" if comparison.is_better else "worse"
-    return Result(entry, comparison, p, words)
