@@ -10,8 +10,7 @@ motions     motion
 runs        run (in a YADE session only)
 recordings  load_run, RunResult
 
-`help(th.run)` describes one of them. Guide: docs/python.md. Scenes of your own: `import yade_timber`.
-"""
+`help(th.run)` describes one of them. Guide: docs/python.md. Scenes of your own: `import yade_timber`."""
 from inspect import signature as _signature
 from types import ModuleType as _ModuleType
 

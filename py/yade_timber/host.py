@@ -6,8 +6,7 @@
 1. the build record inside the module file (read before the file is loaded) names another YADE version, feature set or
 Python, or
 2. a value stored through YADE's own Python attribute does not come back through the module's compiled layout, or the
-reverse.
-"""
+reverse."""
 import importlib
 import json
 import mmap

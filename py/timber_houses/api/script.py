@@ -4,8 +4,7 @@ ensemble of processes; `main_requested` does a run of such processes.
 
 With YADE's `-x`, or without a terminal, the run is completed and its results are written. Otherwise it starts in the
 background, and the user has the prompt. Most modules are imported inside `_launch`, so that Ctrl-C during their import
-ends in a line, too.
-"""
+ends in a line, too."""
 import signal
 import sys
 

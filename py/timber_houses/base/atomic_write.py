@@ -3,8 +3,7 @@
 
 Only regular files are replaced, where a path or its links lead to one or to nothing. What else can be written to (a
 terminal, a pipe with a reader, a character device) gets the content of the complete file; folders, sockets and disks
-are refused.
-"""
+are refused."""
 import errno
 import os
 import secrets

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Record files: files of a run that are read back, perhaps from a folder of unknown origin.
 
-One rule for all: a regular file of a bounded size; no link is followed, no pipe or device is waited for.
-"""
+One rule for all: a regular file of a bounded size; no link is followed, no pipe or device is waited for."""
 import errno
 import os
 import stat

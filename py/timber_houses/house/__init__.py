@@ -2,8 +2,7 @@
 """Timber-frame houses as data: YAML description -> elements and joints. Needs no YADE (numpy, scipy, PyYAML).
 
     model = build_house(load_house("C2"), snow_depth=1.0)
-    model.elements, model.joints, model.counts()
-"""
+    model.elements, model.joints, model.counts()"""
 from .bays import BayName, free_bays, free_wall_bays
 from .build import build_house
 from .check import check_house, overlaps

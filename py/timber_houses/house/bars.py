@@ -3,8 +3,7 @@
 
 A bar is the prism of its section about the line from -> to, between its end faces. An end at another member, and a cut
 through a bar's axis near its end, replace the square end face. A plane is its normal (3,) and its offset [m]: what lies
-beyond it, on the side to which the normal points, is removed.
-"""
+beyond it, on the side to which the normal points, is removed."""
 from dataclasses import dataclass
 
 import numpy as np

@@ -3,8 +3,7 @@
 eKfl dK / Qr.
 
 Each structure is judged alone. Directions: ew, ns - of the walls that resist. Coefficients, sources:
-diagnosis_tables.py.
-"""
+diagnosis_tables.py."""
 from collections import Counter
 from dataclasses import dataclass
 

@@ -3,8 +3,7 @@
 
 Order: Enforcement Order of the Building Standard Law; its rules of wall quantity: wall_quantity.py. JBDPA: seismic
 diagnosis of wooden houses, general diagnosis (Japan Building Disaster Prevention Association, 2012). None of them was
-at hand: 'compared' names the published text that repeats the numbers, 'not verified' is from memory of the source.
-"""
+at hand: 'compared' names the published text that repeats the numbers, 'not verified' is from memory of the source."""
 DIRECTION_NAMES = {"ew": "E-W", "ns": "N-S"}
 ALLOWABLE_KN_M = 1.96
 """Allowable shear of a wall of multiplier 1. [kN/m] (Order, Article 46; compared: stmaki.com, N-value method)"""

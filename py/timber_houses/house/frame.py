@@ -2,8 +2,7 @@
 """A structure of single members and plates: the part `frame` of a house file. Lengths in m. Interface: grid.py.
 
 Columns and braces belong to the storey in which their feet are, other members to the nearest level; what is higher than
-the last level carries the number of storeys + 1 (columns, braces) or that of the last storey.
-"""
+the last level carries the number of storeys + 1 (columns, braces) or that of the last storey."""
 from collections import Counter
 
 import numpy as np

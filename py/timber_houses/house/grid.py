@@ -3,8 +3,7 @@
 
 A structure of any kind (Grid, frame.Frame) has `name`, `table` with its `loads`, `margin` [m], `area()`, `levels`
 {storey: (foot, head) [m]}, `heights` {storey: [m]}, `plans` {storey: FloorPlan}, `named` joints, `lay(snow)` and
-`further_joints(elements, joints, data, level)`. All else, as joints, loads and damage, is the same for both.
-"""
+`further_joints(elements, joints, data, level)`. All else, as joints, loads and damage, is the same for both."""
 from .braces import lay_braces
 from .errors import HouseError
 from .members import column_plan, lay_columns, lay_floors, lay_strips

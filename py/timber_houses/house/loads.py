@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Loads in kN per m2: of roof surface and floor with the slab itself, of outer wall beside its columns.
 
-A load becomes mass of its member, spread evenly: of the slab, or of the columns at both ends of a bay.
-"""
+A load becomes mass of its member, spread evenly: of the slab, or of the columns at both ends of a bay."""
 import numpy as np
 
 from ..base.gravity import mass_of

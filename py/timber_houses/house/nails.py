@@ -16,8 +16,7 @@ M over its height H:
     mu = gamma_u / gamma_v                 Pa = min(My / H, 0.2 sqrt(2 mu - 1) Mu / H, K / 150)
 
 Source: allowable stress design of post-and-beam houses (Japan Housing and Wood Technology Center), 3.3, detailed
-calculation of walls with boards; the formulas follow from the mechanics above.
-"""
+calculation of walls with boards; the formulas follow from the mechanics above."""
 from dataclasses import dataclass
 
 import numpy as np

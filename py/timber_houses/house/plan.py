@@ -2,8 +2,7 @@
 """Plan of a storey of any shape: cells between grid lines, with or without floor. Lengths in m, as laid: upright.
 
 A cell has floor if a slab above the storey (floor or roof) covers it, without eaves, and columns of the storey stand on
-its south-west, south-east, north-west and north-east: roofs and floors that project beyond the columns do not count.
-"""
+its south-west, south-east, north-west and north-east: roofs and floors that project beyond the columns do not count."""
 from dataclasses import dataclass
 from itertools import product
 

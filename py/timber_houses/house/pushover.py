@@ -3,8 +3,7 @@
 the natural periods with the secant stiffness of the curves at a drift.
 
 Walls have their envelopes at the level of the house; braces pull with the springs of both ends until the weaker one
-breaks and bear nothing in compression. Column ends and P-delta are left out.
-"""
+breaks and bear nothing in compression. Column ends and P-delta are left out."""
 from collections import defaultdict
 
 import numpy as np

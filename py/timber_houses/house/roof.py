@@ -9,8 +9,7 @@ A boxed slab is hollow: it has the mass of its thickness over its sloped area. G
 tied at the level of the plates. Hip (paper, 3.4): hips run at 45 degrees in plan; each slab is the part of the outline
 nearest to its own eave. The long slopes are hexahedra; the hip ends, whose three corners are cut off, octahedra. A
 square plan gives a pyramid. Mono-pitch: one slab, on the plates of its eave and on posts over those of the wall
-opposite, which belong to its joints.
-"""
+opposite, which belong to its joints."""
 from dataclasses import dataclass, replace
 
 import numpy as np

@@ -9,8 +9,7 @@ Weights are those of the sheet that the ministry admits (Howtec, post-and-beam h
 wall. Outer walls weigh per m2 of wall; the sheet converts that to floor area with a house of 6.0 x 16.5 m: 45 m of
 outer walls on 99 m2, 9 % of them windows. Its inner walls of 200 N per m2 of floor assume a storey height of 2.8 m. The
 storeys' own heights scale both. Compared: github.com/you0810jmsdf/pascal-editor, kenchiku-spec, which repeats numbers
-and formulas; of the conversion collaboplaza.com, page 8737.
-"""
+and formulas; of the conversion collaboplaza.com, page 8737."""
 import math
 from dataclasses import dataclass
 

@@ -8,8 +8,7 @@ the factor 0.5 by which the rule for fittings of the Japanese code (Notification
 restraint of neighbouring members into account.
 
 Each half is one spring at the middle of the bay, anchored in both members. It acts along one axis: walls have no
-stiffness across their plane.
-"""
+stiffness across their plane."""
 from dataclasses import dataclass
 
 import numpy as np

@@ -18,8 +18,7 @@ def weigh(model):
     storeys                 {structure: {storey: {level_kn, carried_kn}}}: of the level at its top, with half the
     columns and walls below and
                             above; of this level and all higher ones, the weight that drives the storey's shear. Without
-                            snow.
-    """
+                            snow."""
     area = sum(floor_area(model, group, storey) for group, storeys in model.storey_levels.items() for storey in storeys)
     total = weight_of(sum(e.mass for e in model.elements if not e.fixed and e.kind != "snow"))
     return {"total_kn": round(total, 3), "snow_kn": round(weight_of(sum(e.mass for e in model.of_kind("snow"))), 3),

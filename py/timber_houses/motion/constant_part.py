@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Constant part of a motion: the zero error of a sensor, or gravity; it acts like a lean or like another weight.
 
-The mean of a recorded motion is below 0.01 % of the peak as published, below 1 % in parts of a few seconds.
-"""
+The mean of a recorded motion is below 0.01 % of the peak as published, below 1 % in parts of a few seconds."""
 import warnings
 
 import numpy as np

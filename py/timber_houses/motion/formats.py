@@ -5,8 +5,7 @@ K-NET and KiK-net: see knet.py.
 PEER AT2: four header lines, the fourth in several forms, values in g.
 Peknold's El Centro: prose header ("1559 points at equal spacing of 0.02 sec"), values in g.
 JMA CSV: six "KEY = value" lines, a row with the names of the columns, values in gal.
-Plain CSV: '#' comments with "key: value", a row with the names of the columns, rows.
-"""
+Plain CSV: '#' comments with "key: value", a row with the names of the columns, rows."""
 import re
 
 from ..base.input_file import shown

@@ -3,8 +3,7 @@
 
 ASCII: "About K-NET ASCII format" (17 header lines, whole counts, scale factor). Its Record Time includes the logger's
 trigger delay: the first sample is 15 s earlier (DELAY). CSV: a header behind '#', each row of labels followed by a row
-of values, the names of the columns last.
-"""
+of values, the names of the columns last."""
 import re
 import warnings
 from datetime import timedelta

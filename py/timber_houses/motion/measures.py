@@ -241,8 +241,7 @@ def significant_duration(motion, start=0.05, end=0.95):
 
 def onset(motion, share=0.05):
     """Onset of strong shaking: the Arias intensity reaches `share` of its final value. [s]; None without shaking. With
-    0.95: its end.
-    """
+    0.95: its end."""
     growth = _energy(motion).sum(axis=1)
     return float(np.searchsorted(growth, share * growth[-1]) * motion.dt) if growth[-1] > 0.0 else None
 

@@ -2,8 +2,7 @@
 """Files to ground motion: the files of one record, and the mapping of their components.
 
 The record's components become the axes of the house (x east, y north, z up) through their azimuths, clockwise
-from north: K-NET's N-S is 0, PEER's 090 is 90, and 180 is north-south with its sign changed.
-"""
+from north: K-NET's N-S is 0, PEER's 090 is 90, and 180 is north-south with its sign changed."""
 import re
 import warnings
 from os.path import commonprefix

@@ -13,8 +13,7 @@ It matches the published measures of that record (TARGETS), not its wave form. S
 5. Loop: pulse size, number of cycles, noise level and the share of NS are corrected, and 2-4 repeated, until vector
    PGV, JMA intensity and response spectrum fit as well.
 
-A motion that does not converge is discarded and replaced by the next random stream of the same seed.
-"""
+A motion that does not converge is discarded and replaced by the next random stream of the same seed."""
 from dataclasses import dataclass
 
 import numpy as np

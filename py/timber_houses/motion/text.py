@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Text of record files: lines, numbers, tables, dates; a channel. `where` opens messages: file, line, member.
 
-String methods instead of regular expressions keep the time of a line proportional to its length.
-"""
+String methods instead of regular expressions keep the time of a line proportional to its length."""
 import re
 import warnings
 from dataclasses import dataclass, field
@@ -39,8 +38,7 @@ class Channel:
     values     (n,) [m/s2]
     direction  azimuth in degrees clockwise from north in which the motion is positive, UP, DOWN,
                or None where the file does not state it
-    begins     date and time of the first sample, or None where the file does not state it
-    """
+    begins     date and time of the first sample, or None where the file does not state it"""
 
     path: Path
     dt: float

@@ -2,8 +2,7 @@
 """A file to which an unfinished run appends its samples at each checkpoint, so that the bytes written grow with the
 result. Needs no YADE.
 
-Its records are entries of `yade_timber.log`; the first one has the fingerprint of the run's identity.
-"""
+Its records are entries of `yade_timber.log`; the first one has the fingerprint of the run's identity."""
 import os
 import zlib
 

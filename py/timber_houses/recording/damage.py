@@ -3,8 +3,7 @@
 
 A joint is broken when all its springs are, partly broken when some are. Joints that are broken before the start are
 counted apart, never as broken. Totals leave out the joints of walls, of which the sheets are counted. A column is lost
-when it has fallen (inclined by more than FALLEN_ANGLE) or is loose (no joint of it has a spring left).
-"""
+when it has fallen (inclined by more than FALLEN_ANGLE) or is loose (no joint of it has a spring left)."""
 import math
 from collections import Counter
 from dataclasses import dataclass, replace

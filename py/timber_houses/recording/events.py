@@ -4,8 +4,7 @@
 FirstBreak, Tilt (a storey drift passes verdict.TILT), Collapse (an upper floor comes down by verdict.FALL),
 StructureFallen (another structure than the main one): at the time they happen; OwnWeight (damaged before the shaking):
 in the last frame before it; ColumnsLost, SnowFallen: at the end of the frame interval in which they happen.
-ShakingBegins, StrongestShaking, LevelPassed: of the player, not recorded.
-"""
+ShakingBegins, StrongestShaking, LevelPassed: of the player, not recorded."""
 from dataclasses import dataclass, field
 
 from ..base.json_types import decode, encode, require

@@ -34,8 +34,7 @@ attributes   format, title (house and loads), scenario, model, version (of the p
 
 Frames are recorded FRAMES_PER_SECOND times per simulated second from t = 0, and at the last step. Until the run has
 ended, the frames and contacts up to its last checkpoint are in frames.log beside the file (frame_log.py), which `load`
-reads, too. It also reads the log of a user's scene (`yt.record`).
-"""
+reads, too. It also reads the log of a user's scene (`yt.record`)."""
 import io
 import json
 from pathlib import Path

@@ -5,8 +5,7 @@ Part 2k is level k: floor, beams, roof and snow above storey k; level 0: sills t
 braces and walls of storey k. The shear of storey k is the horizontal inertia force, minus mass times absolute
 acceleration, of everything above the heads of its columns; the base shear is that of all parts. A positive shear goes
 with a positive drift. Shears are means over a sample interval (0.01 s), accelerations what an accelerometer with the
-band BAND shows: members that hit each other give peaks of a few ms, of any height.
-"""
+band BAND shows: members that hit each other give peaks of a few ms, of any height."""
 import numpy as np
 
 from .history import DIRECTIONS

@@ -3,8 +3,7 @@
 
 A layout: {group: Group}, the root named ''. A file may lack parts of it. What else HDF5 can hold is refused: links,
 data in other files, chunks and filters (nothing expands), types with a name, references, one object under two names.
-The entries of each table lie in the file as they are, and all together take no more bytes than the file has.
-"""
+The entries of each table lie in the file as they are, and all together take no more bytes than the file has."""
 import math
 import os
 from contextlib import contextmanager

@@ -9,8 +9,7 @@ repairable  such a drift reached the damage limit, or springs of joints broke
 undamaged   none of these
 
 Peak drifts decide, since a frame that swings back may have lost its strength. A structure leans when its residual drift
-exceeds the tilt.
-"""
+exceeds the tilt."""
 import math
 from dataclasses import dataclass, field
 

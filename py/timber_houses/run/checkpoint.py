@@ -7,8 +7,7 @@ line. YADE's loader stops before it, so the file also opens with `O.load`. Once 
 
 YADE's loader creates whatever object the file names, also a PyRunner, which runs code. The binary format names each
 such class, with its namespace, before the first object of it; a file that names other classes than a run writes is
-refused before YADE reads it. `sha256` finds damage, not forgery.
-"""
+refused before YADE reads it. `sha256` finds damage, not forgery."""
 import errno
 import hashlib
 import json

@@ -3,8 +3,7 @@
 package. Needs no YADE.
 
 `made_from` stands in summary.json; a study repeats a run whose `made_from` has changed. Checkpoint and frames carry
-`identity`, which allows another duration and moved house and record files.
-"""
+`identity`, which allows another duration and moved house and record files."""
 import json
 from functools import cache
 from hashlib import sha256

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The scene in YADE -> descriptions and states of the recording's types.
 
-Element k of the HouseModel is body k of the scene, joint k is joint k of the JointEngine.
-"""
+Element k of the HouseModel is body k of the scene, joint k is joint k of the JointEngine."""
 import json
 import math
 

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Quantities of the run that is loaded in YADE: storey shears, accelerations, peaks of joints and column feet.
 
-Element k of the HouseModel is body k of the scene, joint k is joint k of the JointEngine and of the Sampler.
-"""
+Element k of the HouseModel is body k of the scene, joint k is joint k of the JointEngine and of the Sampler."""
 from collections import namedtuple
 from dataclasses import dataclass
 from operator import attrgetter

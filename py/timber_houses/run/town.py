@@ -2,8 +2,7 @@
 """A town in this YADE process: a Run for each lot, in a scene and a folder of its own, on all threads.
 
 The houses do not act on each other. Each scene is computed from frame to frame before the next one, so that its data
-stay in the processor's cache: time and memory per element do not depend on the number of houses.
-"""
+stay in the processor's cache: time and memory per element do not depend on the number of houses."""
 from contextlib import contextmanager
 
 import yade.runtime

@@ -9,8 +9,7 @@ Yielding joints have the stiffness with which they unload; walls that have not y
 line of their envelope.
 
 Free motions are left out: of bodies that no springs join to a fixed body, and slower than SLOWEST.
-Modes of equal omega^2 have shapes by convention, so that a scene has one result, whatever was computed before.
-"""
+Modes of equal omega^2 have shapes by convention, so that a scene has one result, whatever was computed before."""
 from dataclasses import dataclass
 
 import numpy as np

@@ -7,8 +7,7 @@ have with the dashpots of all contacts and joints the power P and the damping ra
     zeta_m = P / (2 omega_m) + sum over joints tau_j E_jm / (2 omega_m)        E_jm = phi_m' K_j phi_m
 
 The stated ratio gives one time tau for each mode. A joint has their mean, weighted by its energies E_jm in both modes.
-Where contacts carry most of the elastic energy, as in braced houses, joints cannot add the rest: tau is limited.
-"""
+Where contacts carry most of the elastic energy, as in braced houses, joints cannot add the rest: tau is limited."""
 import numpy as np
 import scipy  # submodules load on first use; most runs need no optimize
 import yade.wrapper as yw

@@ -3,8 +3,7 @@
 
 A task is done when its folder holds a summary.json made from the same options, files and package. `run_missing` starts
 the other tasks: a process finds its options in request.json of the folder (run/request_file.py). An interrupted run
-continues from its checkpoint. run.json records how a run ended; run.log holds its messages.
-"""
+continues from its checkpoint. run.json records how a run ended; run.log holds its messages."""
 import json
 import os
 import shutil

@@ -4,8 +4,7 @@
 YADE's classes accept misspelt names in silence and keep a value that their `postLoad` has refused. `install` mends both
 for the classes that it is given: unknown names are refused, and after a refused value the object is as before; numbers
 are finite, unless the class's own value is not; `updateAttrs` sets what the attributes themselves would set. `guard`
-extends the last two to classes of YADE.
-"""
+extends the last two to classes of YADE."""
 import difflib
 import math
 import re

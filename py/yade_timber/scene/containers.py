@@ -3,8 +3,7 @@
 
 YADE ends the process at None in a list. `guard` refuses it. A body that is erased takes its joints with it at once:
 another body may get its id before the next step, or the scene may be saved. An interaction that is erased begins anew
-as one of bodies that are placed.
-"""
+as one of bodies that are placed."""
 from functools import wraps
 
 import yade.wrapper as yw

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """One line about each object of the package's classes, and a table of a joint's springs, for the prompt: units, four
-digits.
-"""
+digits."""
 ATTRIBUTES = {"TimberMat": (("young", "Pa"), ("poisson", ""), ("density", "kg/m3"), ("friction", ""),
                             ("bearing", "Pa")),
               "SnowMat": (("density", "kg/m3"), ("friction", "")),

@@ -6,8 +6,7 @@
    where that costs the least volume; laps, notches and housings also by the share of a part that it costs, and
    rather at an end that lies on another part than at one under it. A part that would lose more than MOST_LOST is
    divided at the other one instead.
-3. Ends that met nothing get their length back.
-"""
+3. Ends that met nothing get their length back."""
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations

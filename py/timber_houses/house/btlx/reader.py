@@ -3,8 +3,7 @@
 
 BTLx states millimetres and degrees. A part fills a box in its own frame: x along its length, y along its height, z
 along its width; its place gives origin, x and y in the frame of the project, z = x cross y. Raw parts, which hold parts
-nested for production, are not read.
-"""
+nested for production, are not read."""
 from collections import Counter
 from dataclasses import dataclass, field
 from io import BytesIO

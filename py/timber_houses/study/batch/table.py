@@ -3,8 +3,7 @@
 
 Columns separated by blanks (the format of yade-batch): `#` starts a comment, `*` is the default, `=` the value of the
 line above; columns whose names begin with `!` belong to yade-batch and are ignored. Separated by commas (CSV): an empty
-cell is the default. Relative paths are relative to the table's folder.
-"""
+cell is the default. Relative paths are relative to the table's folder."""
 import csv
 import re
 from pathlib import Path

@@ -3,8 +3,7 @@
 
 The response of a run is the logarithm of its largest storey drift; a collapse counts as a drift of CAP. A measure is
 compared with the house as it is under the same motions. The first motions select the finalists, the others test them. A
-dropped measure has no test, and costs the finalists no significance: the motions that chose them do not test them.
-"""
+dropped measure has no test, and costs the finalists no significance: the motions that chose them do not test them."""
 import math
 from dataclasses import dataclass
 
