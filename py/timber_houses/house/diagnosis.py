@@ -295,7 +295,6 @@ def _foot_strengths(model):
     strengths = {}
     for joint in model.joints:
         if joint.end == "bottom" and joint.kind not in WALL_KINDS and model.element(joint.a).kind == "column":
-            whole = joint.strength * (1 if joint.per == "joint" else len(joint.points))
-            allowable = whole * (rules.ALLOWABLE_YIELD if joint.law == "slip" else 1.0)
+            allowable = joint.whole(joint.strength) * (rules.ALLOWABLE_YIELD if joint.law == "slip" else 1.0)
             strengths[joint.a] = strengths.get(joint.a, 0.0) + (0.0 if joint.broken else allowable / 1000)
     return strengths

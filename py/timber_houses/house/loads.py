@@ -25,15 +25,11 @@ def apply_loads(elements, structures, loads):
             earlier.append(structure)
 
 
-def upper_area(element):
-    """Area of the faces that look upwards: of a slab, the surface of roof or floor. [m2]"""
-    return sum(abs(polygon_area(face.points @ face.axes.T)) for face in element.solid.faces if face.normal[2] > 1e-6)
-
-
-def projected_area(element):
-    """Horizontal projection of the faces that look upwards. [m2]"""
-    return sum(abs(polygon_area(face.points @ face.axes.T)) * face.normal[2] for face in element.solid.faces
-               if face.normal[2] > 1e-6)
+def upper_area(element, projected=False):
+    """Area of the faces that look upwards: of a slab, the surface of roof or floor; or its horizontal projection. [m2]
+    """
+    return sum(abs(polygon_area(face.points @ face.axes.T)) * (face.normal[2] if projected else 1.0)
+               for face in element.solid.faces if face.normal[2] > 1e-6)
 
 
 def _hang_walls(structure, members, load, earlier):

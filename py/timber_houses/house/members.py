@@ -87,12 +87,12 @@ def lay_floors(structure, layer):
 
 def lay_columns(structure, layer):
     """Square columns of one storey on their nodes, in the order of the column groups."""
-    elements = []
+    elements, plan = [], structure.plans[layer.storey]
     for (x, y), (section, where) in column_plan(structure, layer.storey).items():
         centre = np.array([structure.position("x", x), structure.position("y", y)])
         vertices = box([*(centre - section / 2), layer.z0], [*(centre + section / 2), layer.z1])
         elements.append(structure.element("column", f"column{layer.storey}.x{x:g}y{y:g}", vertices, layer.table, where,
-                                          storey=layer.storey, side=structure.column_sides(layer.storey, x, y),
+                                          storey=layer.storey, side=plan.sides_at(*centre.tolist()),
                                           section=(section, section)))
     return elements
 

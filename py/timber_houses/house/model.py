@@ -134,6 +134,10 @@ class JointSpec:
         """(3,) mean of the spring points [m]."""
         return self.points.mean(0)
 
+    def whole(self, value):
+        """Of the joint as a whole, from a value of it or of each of its springs."""
+        return value * (1 if self.per == "joint" else len(self.points))
+
 
 @dataclass(eq=False)
 class HouseModel:

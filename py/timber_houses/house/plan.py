@@ -56,15 +56,13 @@ class FloorPlan:
         'x' or 'y'; at: position of the line; start, end: of the stretch. Empty inside and off the floor."""
         axis = "xy".index(along)
         edges = np.clip(self.edges[axis], start, end)
-        hands = {self._floors(axis, at, middle) for middle in (edges[:-1] + edges[1:])[np.diff(edges) > ROUNDING] / 2}
+        hands = set()  # (floor on the lower hand, on the higher) of the middles of the parts between cells
+        for middle in (edges[:-1] + edges[1:])[np.diff(edges) > ROUNDING] / 2:
+            points = [(middle, at + aside)[::1 if axis == 0 else -1] for aside in (-2 * ROUNDING, 2 * ROUNDING)]
+            hands.add(tuple(self.has_floor(point) for point in points))
         low, high = ENDS["yx"[axis]]
         return {frozenset({(False, True)}): frozenset({low}), frozenset({(True, False)}): frozenset({high})
                 }.get(frozenset(hands), frozenset())
-
-    def _floors(self, axis, at, middle):
-        """(floor on the lower hand, on the higher) of a point of a line."""
-        points = [(middle, at + aside)[::1 if axis == 0 else -1] for aside in (-2 * ROUNDING, 2 * ROUNDING)]
-        return tuple(self.has_floor(point) for point in points)
 
     def sides_at(self, x, y):
         """Sides of the house whose outer walls meet at a point."""
@@ -82,8 +80,8 @@ class FloorPlan:
 def floor_plan(columns, slabs):
     """FloorPlan of a storey. columns: {(x, y): name}; slabs: [(low, high) corners (2,)] of those above it"""
     places = np.array(list(columns)).reshape(-1, 2)
-    edges = tuple(_distinct([*places[:, axis], *(corner[axis] for slab in slabs for corner in slab)])
-                  for axis in (0, 1))
+    found = [np.sort([*places[:, axis], *(corner[axis] for slab in slabs for corner in slab)]) for axis in (0, 1)]
+    edges = tuple(each[np.diff(each, prepend=-np.inf) > ROUNDING] for each in found)
     middles = [(e[:-1] + e[1:]) / 2 for e in edges]
     floor = np.array([[_carried((x, y), places) and _covered((x, y), slabs) for y in middles[1]] for x in middles[0]],
                      bool)
@@ -111,8 +109,3 @@ def _carried(point, columns):
     """Whether columns stand in all four quadrants about a point."""
     east, north = (columns >= point).T
     return all((ew & ns).any() for ew in (east, ~east) for ns in (north, ~north))
-
-
-def _distinct(values):
-    values = np.sort(values)
-    return values[np.diff(values, prepend=-np.inf) > ROUNDING]

@@ -45,7 +45,7 @@ def _brace(model, brace):
             ends[joint.end].append(joint)
     if not all(ends.values()):
         return None
-    stiffness, strength = zip(*((sum(_of_all(j, j.kn) for j in joints), sum(_of_all(j, j.strength) for j in joints))
+    stiffness, strength = zip(*((sum(j.whole(j.kn) for j in joints), sum(j.whole(j.strength) for j in joints))
                                 for joints in ends.values()))
     rise, run = np.ptp(brace.vertices[:, 2]), np.ptp(brace.vertices[:, :2], axis=0).max()
     slope, force = run / np.hypot(rise, run), min(strength)
@@ -53,11 +53,6 @@ def _brace(model, brace):
         return None
     drift = force * sum(1 / k for k in stiffness) / (slope * rise)
     return np.array([0.0, drift, drift * (1 + 1e-6)]), np.array([0.0, force * slope, 0.0])
-
-
-def _of_all(joint, value):
-    """Of a joint as a whole, from a value of it or of each of its springs."""
-    return value * (1 if joint.per == "joint" else len(joint.points))
 
 
 def _sum(curves):

@@ -74,10 +74,6 @@ class Structure:
         return self.plans[storey].sides(along, self.position(ACROSS[along], at), *(
             self.position(along, node) for node in sorted((start, end))))
 
-    def column_sides(self, storey, x, y):
-        """Sides of the house whose outer walls meet at a node in a storey."""
-        return self.plans[storey].sides_at(self.position("x", x), self.position("y", y))
-
     def check_nodes(self, axis, nodes, where):
         """HouseError when a node lies outside the grid."""
         for node in nodes:

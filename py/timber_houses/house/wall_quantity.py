@@ -17,7 +17,7 @@ import numpy as np
 
 from ..base.gravity import weight_of
 from . import diagnosis_tables as tables
-from .loads import projected_area, upper_area
+from .loads import upper_area
 
 
 @dataclass(frozen=True)
@@ -170,7 +170,7 @@ def requirement(model, group):
     roofs = model.of_kind("roof", group=group)
     areas = tuple(model.plans[group][storey].area for storey in sorted(levels))
     covered = sum(max(0.0, low - high) for low, high in zip(areas, (*areas[1:], 0.0)))
-    surface, cover = (sum(map(area, roofs)) for area in (upper_area, projected_area))
+    surface, cover = (sum(upper_area(roof, projected) for roof in roofs) for projected in (False, True))
     top = max((e.vertices[:, 2].max() for e in model.of_kind("beam", group=group)), default=levels[max(levels)][1])
     rise = max((roof.vertices[:, 2].max() for roof in roofs), default=top) - top
     weight = weight_of(sum(roof.mass for roof in roofs))

@@ -25,7 +25,7 @@ def sniff(lines):
     """Reader of the format of the lines, or None."""
     head = "\n".join(line for line in lines[:AT2_HEADER_LINES] if not line.startswith(COMMENT))
     start = next((line for line in lines if line.strip(FILLING)), "").strip().strip('"')
-    if knet.is_ascii(lines):
+    if lines[0].strip().strip('"').startswith("Origin Time"):
         return knet.read_ascii
     if knet.is_csv(lines):
         return knet.read_csv

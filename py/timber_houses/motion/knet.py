@@ -32,10 +32,6 @@ _FIELDS = {"Record Time": "", "Sampling Freq": "(Hz)", "Duration Time": "(s)", "
 _OPTIONAL = ("Record Time", "Max")  # fields without which the record can be used
 
 
-def is_ascii(lines):
-    return lines[0].strip().strip('"').startswith("Origin Time")
-
-
 def read_ascii(path, lines, units):
     """Channel of an ASCII file: counts times scale factor."""
     _refuse_units(path, units)

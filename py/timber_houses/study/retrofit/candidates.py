@@ -87,8 +87,7 @@ def in_walls(model, names):
 
 def bay_text(model, bay):
     """'brace: main, storey 1, south wall, 3.2 m east': place of the bay's centre; 'plywood wall: ...'."""
-    xs, ys = bay_ends(model, bay)
-    along, direction = (xs, "east") if bay.along == "x" else (ys, "north")
+    along, direction = bay_ends(model, bay)["xy".index(bay.along)], {"x": "east", "y": "north"}[bay.along]
     return f"{line_text(model, bay)}, {sum(along) / 2:.1f} m {direction}"
 
 
