@@ -33,6 +33,10 @@
 ///     E = phi Z^T (N R_B + R_B N^T) Z,   N = diag([n], [n])                                      (4)
 /// which is large for slender bodies and for long arms.
 ///
+/// A single spring that acts along an axis n has one mode with a stiffness, of the present placement:
+///     Z = n / a^1/2,   omega = (k a)^1/2                                                         (5)
+/// with the response a along n where its force acts. Such joints have one scalar instead of six.
+///
 /// Glossary
 ///     D        damping       matrix of the joint's dashpots [N s/m, N s, N m s]
 ///     eta      -             modal velocity before the step; eta': after the step [kg^1/2 m/s]
