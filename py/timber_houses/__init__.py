@@ -10,8 +10,10 @@ motions     motion
 runs        run (in a YADE session only)
 recordings  load_run, RunResult
 
-`help(th.run)` describes one of them. Guide: docs/python.md. Scenes of your own: `import yade_timber`.
-"""
+`help(th.run)` describes one of them. Guide: docs/python.md. Scenes of your own: `import yade_timber`."""
+from inspect import signature as _signature
+from types import ModuleType as _ModuleType
+
 from yade_timber import __version__  # noqa: F401
 
 from . import house, motion, run
@@ -19,10 +21,18 @@ from .api.house import House
 from .api.motion import ground_motion as _ground_motion
 from .api.result import RunResult, load_run  # noqa: F401
 from .api.run import run as _run
-from .base.callable_package import make_callable as _make_callable
+
+
+class _Callable(_ModuleType):
+    """A package that is called like a function: `run("C2")` runs a house, `run.cli` is a module."""
+
+    def __call__(self, *arguments, **options):
+        return self._function(*arguments, **options)
+
 
 for _package, _function in ((house, House), (motion, _ground_motion), (run, _run)):
-    _make_callable(_package, _function)
+    _package.__class__ = _Callable
+    vars(_package).update(_function=_function, __doc__=_function.__doc__, __signature__=_signature(_function))
 
 
 def __dir__():

@@ -13,8 +13,7 @@ session     guard
 classes     the compiled ones: TimberMat, Sampler, ...
 
 The import registers the classes and changes nothing else of the session. `guard()` protects a scene that runs in the
-background. `help(yt.box)` describes a function. Guide: docs/scenes.md. Houses: `import timber_houses`.
-"""
+background. `help(yt.box)` describes a function. Guide: docs/scenes.md. Houses: `import timber_houses`."""
 from . import host as _host
 
 __version__ = "0.2.0"

@@ -6,8 +6,7 @@
 1. the build record inside the module file (read before the file is loaded) names another YADE version, feature set or
 Python, or
 2. a value stored through YADE's own Python attribute does not come back through the module's compiled layout, or the
-reverse.
-"""
+reverse."""
 import importlib
 import json
 import mmap
@@ -16,8 +15,7 @@ from pathlib import Path
 
 RECORD_MARK = b"@timber-build"
 MODULE = "_yade_timber"
-FASTER = "x86_64_v3"
-"""Folder of a second module for processors with AVX2 (Debian package)."""
+FASTER = "x86_64_v3"  # folder of a second module for processors with AVX2 (Debian package)
 REMEDY = "Rerun scripts/setup to build yade-timber for this YADE."
 
 
@@ -94,8 +92,7 @@ def check_layout(plugin, wrapper, record: dict, host: dict, shift: int = 0) -> i
     """Round trips through every member in the module's table; returns their number.
 
     Reads come before writes: a write through a wrong layout would corrupt memory. `shift` [bytes] displaces every
-    compiled read, so that a test can simulate another layout. Raises ImportError that names class and attribute.
-    """
+    compiled read, so that a test can simulate another layout. Raises ImportError that names class and attribute."""
     table = list(enumerate(plugin.layout_fields()))
     for index, (owner, attribute, pointee) in table:
         default = getattr(getattr(wrapper, owner)(), attribute)

@@ -3,8 +3,7 @@
 
 An entry: kind (1 byte), length of the content (uint32), time [s] (float64), CRC-32 of all three and the content
 (uint32), content; little-endian. The first one has the kind RUN and tells whose log it is. What follows the last
-complete entry, as after a kill, is not read.
-"""
+complete entry, as after a kill, is not read."""
 import struct
 import zlib
 

@@ -8,8 +8,7 @@ from ..base.time_step import DEFAULT_DT
 from ..motion import GroundMotion, MotionRequest, RecordError, scaled
 from ..motion.readers import find_files
 
-SHIPPED = "shipped"
-"""Name of the shipped ground motion."""
+SHIPPED = "shipped"  # name of the shipped ground motion
 
 
 def ground_motion(source=SHIPPED, dt=DEFAULT_DT, **processing):

@@ -40,8 +40,6 @@ class RunResult:
     def __repr__(self):
         return f"<Run {self.folder}: {self.sentence}>"
 
-    # --- numbers ------------------------------------------------------------------------------------------------------
-
     @property
     def drift(self):
         """Largest storey drift of any storey and direction during the run. [-]"""
@@ -82,8 +80,6 @@ class RunResult:
         """Events in the order of time: each with ``time_s`` [s], ``kind``, ``facts``."""
         return self.summary.events
 
-    # --- tables -------------------------------------------------------------------------------------------------------
-
     @cached_property
     def history(self):
         """Time histories: ``history.time`` [s], ``history.drift(1, "ns")`` [-], ``history.energy("kinetic")`` [J]."""
@@ -103,8 +99,6 @@ class RunResult:
     def ensemble(self):
         """Medians, ranges and shares of an ensemble (content of ``ensemble.json``); None for a run on its own."""
         return ensemble.read(self.folder) if (self.folder / ensemble.NAME).exists() else None
-
-    # --- pictures -----------------------------------------------------------------------------------------------------
 
     def player(self, other=None, path=None):
         """Make the page that plays the run in 3D in any browser.

@@ -19,8 +19,7 @@ SOURCE = OptionSource(name=str, earthquake="give motion='shipped', a record, or 
 INSTEAD = {"quake": "give motion='shipped'", "record": "give motion='FILE_OR_PREFIX'", "export": "call export_scene",
            **dict.fromkeys(("ensemble", "jobs"), "scripts/house.py has it")}
 """Options of the command line that are no keywords, and what takes their place."""
-_used = set()
-"""Folders of the runs of this session."""
+_used = set()  # folders of the runs of this session
 
 
 def run(house, motion=None, snow=None, duration=None, out=None, **options):
@@ -79,7 +78,6 @@ def run(house, motion=None, snow=None, duration=None, out=None, **options):
 
 
 def _complete(options):
-    """Run to the end; returns the RunResult."""
     from ..run import session
     from ..run.plan import planned
     from ..run.runner import Interrupted

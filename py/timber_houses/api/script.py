@@ -4,8 +4,7 @@ ensemble of processes; `main_requested` does a run of such processes.
 
 With YADE's `-x`, or without a terminal, the run is completed and its results are written. Otherwise it starts in the
 background, and the user has the prompt. Most modules are imported inside `_launch`, so that Ctrl-C during their import
-ends in a line, too.
-"""
+ends in a line, too."""
 import signal
 import sys
 
@@ -53,8 +52,7 @@ def _launch(read, argv, note=lambda fault: None):
     run that it shows. note: called with an InputError that ends it
 
     Bad input, a failed run and a signal end the process with a line on standard error: status 1, 1 and 128 + the
-    signal's number.
-    """
+    signal's number."""
     print_anything()
     try:
         with deferred_interrupt():

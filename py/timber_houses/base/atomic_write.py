@@ -3,8 +3,7 @@
 
 Only regular files are replaced, where a path or its links lead to one or to nothing. What else can be written to (a
 terminal, a pipe with a reader, a character device) gets the content of the complete file; folders, sockets and disks
-are refused.
-"""
+are refused."""
 import errno
 import os
 import secrets
@@ -15,8 +14,7 @@ import tempfile
 from contextlib import contextmanager
 from pathlib import Path
 
-PART = ".part-"
-"""Start of temporary names."""
+PART = ".part-"  # start of temporary names
 
 
 @contextmanager
@@ -25,8 +23,7 @@ def written_whole(path):
     removed.
 
     The file is created exclusively (no link of that name is followed), with the permissions of the user's umask. Raises
-    OSError.
-    """
+    OSError."""
     path = Path(path)
     with _written_to(path) if _is_stream(path) else _replaced(Path(os.path.realpath(path))) as part:
         yield part

@@ -2,8 +2,7 @@
 """Exceptions for input that cannot be used."""
 from contextlib import contextmanager
 
-MAX_MESSAGE = 900
-"""Longest error message; the middle of a longer one is left out. [characters]"""
+MAX_MESSAGE = 900  # longest error message; the middle of a longer one is left out. [characters]
 
 
 class InputError(ValueError):

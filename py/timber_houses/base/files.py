@@ -12,8 +12,7 @@ from .atomic_write import PART, written_whole
 @contextmanager
 def written_from_memory(path):
     """`written_whole` through a file in memory, for a writer that needs a path and crashes on a full disk (YADE). The
-    system's limit of a file's size holds in memory, too: the writer must report that.
-    """
+    system's limit of a file's size holds in memory, too: the writer must report that."""
     descriptor = os.memfd_create(Path(path).name)
     with open(descriptor, "rb") as memory:
         yield Path(f"/proc/self/fd/{descriptor}")

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Weight and mass."""
-GRAVITY = 9.81
-"""Acceleration of gravity, that of the scene (pkg/Gravity.hpp). [m/s2]"""
+GRAVITY = 9.81  # acceleration of gravity, that of the scene (pkg/Gravity.hpp). [m/s2]
 
 
 def mass_of(weight):

@@ -5,8 +5,7 @@ import os
 import stat
 from pathlib import Path
 
-MAX_SHOWN = 80
-"""Longest value that a message quotes in full. [characters]"""
+MAX_SHOWN = 80  # longest value that a message quotes in full. [characters]
 
 
 def shown(value):

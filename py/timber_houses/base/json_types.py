@@ -2,8 +2,7 @@
 """Dataclasses <-> tables of JSON. Types of fields: str, bool, int, float, dict, list[X], dict[str, X], dataclasses, and
 X | None.
 
-A class with another form has a class method `decoded(value, path)`. Entries that no field has are left out.
-"""
+A class with another form has a class method `decoded(value, path)`. Entries that no field has are left out."""
 from dataclasses import MISSING, field, fields, is_dataclass
 from functools import cache
 from types import UnionType

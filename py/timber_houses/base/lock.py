@@ -9,8 +9,7 @@ from contextlib import contextmanager, suppress
 from .errors import os_errors
 from .files import make_folder
 
-LOCK = ".lock"
-"""Of the process that computes a run."""
+LOCK = ".lock"  # of the process that computes a run
 
 
 def prepare_folder(folder, option):

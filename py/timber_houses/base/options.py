@@ -13,10 +13,8 @@ FLAGS = {"yes": True, "true": True, "1": True, "no": False, "false": False, "0":
 KINDS = {int: ("a whole number", Integral), float: ("a number", Real), bool: ("yes or no", bool),
          str: ("a text", (str, Path)), Path: ("a path", (str, Path))}
 """Kind of an option: its name in messages, and the Python types that a keyword may have."""
-HIDDEN = "hidden"
-"""Group of options that the help leaves out: of studies of this package."""
-BY_SCRIPT = ("house", "quake", "snow")
-"""Options that a run script decides, unless it is house.py or town.py."""
+HIDDEN = "hidden"  # group of options that the help leaves out: of studies of this package
+BY_SCRIPT = ("house", "quake", "snow")  # options that a run script decides, unless it is house.py or town.py
 
 
 def option(kind, about, metavar=None, low=None, high=None, default=None, choices=(), group="motion", decides=True):
@@ -55,21 +53,14 @@ def check_ranges(values, name, error):
             raise error(f"{name(each.name)} {shown(value)}: must be one of {', '.join(choices)};"
                         f" {each.metadata['help']}")
         if low is not None and not low <= value <= high:
-            raise error(f"{name(each.name)} {_number(value)}: must be {_range(value, low, high)};"
-                        f" {each.metadata['help']}")
-
-
-def _number(value):
-    return shown(value) if isinstance(value, int) else f"{value:g}"
+            number = shown(value) if isinstance(value, int) else f"{value:g}"
+            raise error(f"{name(each.name)} {number}: must be {_range(value, low, high)}; {each.metadata['help']}")
 
 
 def _range(value, low, high):
     if high < 1e5:
         return f"between {low:g} and {high:g}"
     return f">= {low:g}" + (f" and at most {high:.10g}" if value > high else "")
-
-
-# --- texts ------------------------------------------------------------------------------------------------------------
 
 
 def read(each, text, name):
@@ -106,21 +97,18 @@ def words(values, named):
             *(command_option(name) + ("" if value is True else f"={value}") for name, value in passed.items())]
 
 
-# --- keywords ---------------------------------------------------------------------------------------------------------
-
-
 def read_keywords(kind, function, keywords, instead={}):
     """{option: value} of a function's keywords, without None. instead: {excluded option: remedy}. Raises RunError."""
     names = [name for name in options(kind) if name not in instead]
     for name in keywords:
         if name not in names:
             raise TypeError(f"{function}() has no option '{name}'; {instead.get(name) or nearest(name, names)}")
-    return {name: _keyword(options(kind)[name], value, f"{function}: {name}") for name, value in keywords.items()
-            if value is not None}
-
-
-def _keyword(each, value, name):
-    noun, types = KINDS[each.metadata["kind"]]
-    if not isinstance(value, types):
-        raise TypeError(f"{name} {shown(value)}: must be {noun}")
-    return read(each, str(value), name) if isinstance(value, (str, Path)) else each.metadata["kind"](value)
+    values = {}
+    for name, value in ((name, value) for name, value in keywords.items() if value is not None):
+        each, place = options(kind)[name], f"{function}: {name}"
+        noun, types = KINDS[each.metadata["kind"]]
+        if not isinstance(value, types):
+            raise TypeError(f"{place} {shown(value)}: must be {noun}")
+        is_text = isinstance(value, (str, Path))
+        values[name] = read(each, str(value), place) if is_text else each.metadata["kind"](value)
+    return values

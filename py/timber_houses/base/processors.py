@@ -9,8 +9,7 @@ GROUPS = Path("/sys/fs/cgroup")
 
 def processors():
     """Number of processors that this process may use: those of its set (taskset), at most the quota of its control
-    group (docker --cpus), at least 1.
-    """
+    group (docker --cpus), at least 1."""
     return max(1, int(min(len(os.sched_getaffinity(0)), quota())))
 
 

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Record files: files of a run that are read back, perhaps from a folder of unknown origin.
 
-One rule for all: a regular file of a bounded size; no link is followed, no pipe or device is waited for.
-"""
+One rule for all: a regular file of a bounded size; no link is followed, no pipe or device is waited for."""
 import errno
 import os
 import stat
@@ -10,12 +9,9 @@ from contextlib import contextmanager
 
 from .errors import RunError
 
-MAX_SIZE = 2_000_000_000
-"""Largest file of binary tables. [bytes] A house of 500 elements for 600 s has 250 MB."""
-MAX_TABLE = 128_000_000
-"""Largest table of text. [bytes] A history of 600 s has 20 MB."""
-MAX_JSON = 32_000_000
-"""Longest text of JSON. [bytes]"""
+MAX_SIZE = 2_000_000_000  # largest file of binary tables. [bytes] A house of 500 elements for 600 s has 250 MB.
+MAX_TABLE = 128_000_000  # largest table of text. [bytes] A history of 600 s has 20 MB.
+MAX_JSON = 32_000_000  # longest text of JSON. [bytes]
 
 
 def open_record(path, flags=os.O_RDONLY, limit=MAX_SIZE):

@@ -3,8 +3,7 @@
 import re
 from difflib import get_close_matches
 
-MAX_WORD = 60
-"""Longest word that is compared with others. [characters]"""
+MAX_WORD = 60  # longest word that is compared with others. [characters]
 _DECIMAL_COMMA = re.compile(r"[-+]?\d{1,20},\d{1,20}")
 
 

@@ -26,8 +26,7 @@ def read_rows(path):
 
 def csv_text(header, rows):
     """Text of a CSV file: floats with 12 significant digits, zero without a sign; texts as in `inert`. Letters beyond
-    ASCII need a byte order mark for spreadsheets.
-    """
+    ASCII need a byte order mark for spreadsheets."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(header)
@@ -37,8 +36,7 @@ def csv_text(header, rows):
     return content if content.isascii() else f"\ufeff{content}"
 
 
-FORMULA = ("=", "+", "-", "@", "\t", "\r")
-"""Beginnings of a cell that spreadsheets evaluate."""
+FORMULA = ("=", "+", "-", "@", "\t", "\r")  # beginnings of a cell that spreadsheets evaluate
 
 
 def inert(value):

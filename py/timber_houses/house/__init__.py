@@ -2,10 +2,8 @@
 """Timber-frame houses as data: YAML description -> elements and joints. Needs no YADE (numpy, scipy, PyYAML).
 
     model = build_house(load_house("C2"), snow_depth=1.0)
-    model.elements, model.joints, model.counts()
-"""
-from .bay_name import BayName
-from .bays import free_bays, free_wall_bays
+    model.elements, model.joints, model.counts()"""
+from .bays import BayName, free_bays, free_wall_bays
 from .build import build_house
 from .check import check_house, overlaps
 from .description import Description, load_house, shipped_houses

@@ -3,8 +3,7 @@
 
 A bar is the prism of its section about the line from -> to, between its end faces. An end at another member, and a cut
 through a bar's axis near its end, replace the square end face. A plane is its normal (3,) and its offset [m]: what lies
-beyond it, on the side to which the normal points, is removed.
-"""
+beyond it, on the side to which the normal points, is removed."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,13 +13,11 @@ from .geometry import SAME, SNAP_DIGITS, cross, halfspace_vertices, polygon_area
 from .parser import Table
 from .schema import fail
 
-SHORTEST = 1e-3
-"""Distance of the ends of a bar, at least. [m]"""
+SHORTEST = 1e-3  # distance of the ends of a bar, at least. [m]
 
 OBLIQUE = 0.1
 """Least component along a bar of the normal of a plane that replaces its end face: up to 84 degrees from square. [-]"""
-WARPED = 1e-3
-"""Largest distance of a plate's corners from their plane. [m]"""
+WARPED = 1e-3  # largest distance of a plate's corners from their plane. [m]
 LEVEL = np.array([0.0, 0.0, 1.0])
 
 
@@ -137,7 +134,8 @@ class Parts:
         if entry.max() <= 0:
             fail(end.at("of"), f"{self.path(name)}.{key}", f"the other end lies within or behind '{end['of']}'; move"
                  " one of the ends, or add flush: false")
-        return removing(solid.faces[int(entry.argmax())])
+        face = solid.faces[int(entry.argmax())]
+        return -face.normal, -face.offset
 
     def _cut(self, name, cut, path, middle):
         """Plane of a cut. middle: of the bar's axis, which remains unless the cut has a normal"""
@@ -151,7 +149,7 @@ class Parts:
             face = max(faces, key=lambda face: face.normal @ middle - face.offset)
             if face.normal @ middle < face.offset:
                 fail(cut.at("by"), path, f"the middle of {name} lies within '{cut['by']}'; move one of them")
-            return removing(face)
+            return -face.normal, -face.offset
         axis = next(axis for axis in "xyz" if cut[axis] is not None)
         sign = 1.0 if cut[axis] >= middle["xyz".index(axis)] else -1.0
         return sign * np.eye(3)["xyz".index(axis)], sign * cut[axis]
@@ -177,9 +175,11 @@ class Parts:
 
     def _covering(self, table, path):
         """(4, 3) corners of a plate on the upper faces of two bars, from the outer edge of one to that of the other."""
-        (first, along), (last, _) = (self._upper(self._bar_of(name, table.at("over"), f"{path}.over"))
-                                     for name in table["over"])
-        points = np.vstack([first.points, last.points])
+        bars = [self._bar_of(name, table.at("over"), f"{path}.over") for name in table["over"]]
+        alongs = [(bar.axis[1] - bar.axis[0]) / np.linalg.norm(bar.axis[1] - bar.axis[0]) for bar in bars]
+        first, last = (max((face for face in bar.solid.faces if abs(face.normal @ along) < OBLIQUE),
+                           key=lambda face: face.normal[2]) for bar, along in zip(bars, alongs))
+        along, points = alongs[0], np.vstack([first.points, last.points])
         if np.abs(points @ first.normal - first.offset).max() > WARPED:
             fail(table.at("over"), f"{path}.over", "the upper faces of the two members are not in one plane; give"
                  " corners")
@@ -188,18 +188,6 @@ class Parts:
         low, high = v.min() - table["overhang"], v.max() + table["overhang"]
         return np.array([a * along + b * across + first.offset * first.normal
                          for a, b in ((u.min(), low), (u.max(), low), (u.max(), high), (u.min(), high))])
-
-    @staticmethod
-    def _upper(bar):
-        """(Face of a bar that looks upwards most, along the bar; unit vector along the bar)."""
-        along = (bar.axis[1] - bar.axis[0]) / np.linalg.norm(bar.axis[1] - bar.axis[0])
-        faces = [face for face in bar.solid.faces if abs(face.normal @ along) < OBLIQUE]
-        return max(faces, key=lambda face: face.normal[2]), along
-
-
-def removing(face):
-    """Plane that removes what lies behind a face of another member."""
-    return -face.normal, -face.offset
 
 
 def outline(table):
@@ -222,10 +210,11 @@ def is_convex(corners):
 def section_axes(along, roll):
     """Unit vectors of width and depth of a bar. along: unit vector; roll: right-handed about it [degrees]"""
     across = cross(LEVEL, along)
-    is_vertical = np.linalg.norm(across) < 1e-6
-    width = np.array([1.0, 0, 0]) if is_vertical else across / np.linalg.norm(across)
-    depth = np.array([0.0, 1, 0]) if is_vertical else cross(along, width)
-    (cosine, sine) = turned(roll)
+    width, depth = np.array([[1.0, 0, 0], [0.0, 1, 0]])
+    if np.linalg.norm(across) >= 1e-6:  # not vertical
+        width = across / np.linalg.norm(across)
+        depth = cross(along, width)
+    cosine, sine = turned(roll)
     return cosine * width + sine * cross(along, width), cosine * depth + sine * cross(along, depth)
 
 
@@ -258,16 +247,14 @@ def placements(steps, path):
             if key not in (form, *STEPS[form]):
                 fail(step.at(key), f"{path}.repeat.{key}", f"does not belong to '{form}'; remove it")
         matrix, shift = _step(step)
-        copies, last = list(places), places
+        last = places
         for _ in range(1, 2 if step["mirror"] else step["count"]):
             last = [(matrix @ m, matrix @ s + shift) for m, s in last]
-            copies += last
-        places = copies
+            places = places + last
     return places
 
 
 def _step(step):
-    """(matrix, shift) of one step of a repeat."""
     if step["by"] is not None:
         return np.eye(3), np.array(step["by"])
     matrix = np.eye(3)

@@ -9,28 +9,29 @@ from .structure import ACROSS, in_storey
 
 def lay_braces(structure, layer):
     """Braces of one storey. A run [foot, head] leans from the foot of one column to the head of another."""
-    table, plan = structure.table["braces"], column_plan(structure, layer.storey)
+    plan, lines = column_plan(structure, layer.storey), in_storey(structure.table["braces"]["lines"], layer.storey)
     return [_brace(structure, layer, (line["along"], at, *run), line["runs"].at(i), plan)
-            for line in in_storey(table["lines"], layer.storey) for at in line["at"]
-            for i, run in enumerate(line["runs"])]
+            for line in lines for at in line["at"] for i, run in enumerate(line["runs"])]
 
 
 def _brace(structure, layer, place, where, plan):
     """place: direction of the grid line, its node, nodes of the columns at foot and head; where: file:line"""
     table, (along, at, foot, head) = structure.table["braces"], place
     name = f"brace{layer.storey}.{line_name(along, at)}.{foot:g}-{head:g}"
-    ends = _clear_bay(structure, layer.storey, place, where, plan)
-    planes = _extruded(brace_planes(ends, (layer.z0, layer.z1), table["width"]), along,
-                       structure.position(ACROSS[along], at), table["thickness"])
+    ends = _clear_bay(structure, layer.storey, place, where, nodes_on_line(plan, along, at))
+    band = brace_planes(ends, (layer.z0, layer.z1), table["width"])
+    across, centre = "xy".index(ACROSS[along]), structure.position(ACROSS[along], at)
+    planes = [(np.insert(np.asarray(normal, float), across, 0), offset) for normal, offset in band]
+    planes += [(sign * np.eye(3)[across], sign * centre + table["thickness"] / 2) for sign in (1, -1)]
     return structure.element("brace", name, structure.cut(name, planes, where), table, where, storey=layer.storey,
                              side=structure.outer_sides(layer.storey, along, at, foot, head),
                              section=(table["width"], table["thickness"]))
 
 
-def _clear_bay(structure, storey, place, where, plan):
-    """Positions [m] along the wall of the column faces that foot and head of the brace touch."""
+def _clear_bay(structure, storey, place, where, on_line):
+    """Positions [m] along the wall of the column faces that foot and head of the brace touch. on_line: `nodes_on_line`
+    """
     along, at, foot, head = place
-    on_line = nodes_on_line(plan, along, at)
     bay = (f"{where}: {structure.name}: brace [{foot:g}, {head:g}] along {along} at {ACROSS[along]} node {at:g}, storey"
            f" {storey} has no bay")
     for node in (foot, head):
@@ -53,10 +54,3 @@ def brace_planes(ends, levels, width):
     band = [(normal, normal @ foot + width / 2), (-normal, -normal @ foot + width / 2)]
     bay = [((1, 0), max(ends)), ((-1, 0), -min(ends)), ((0, 1), levels[1]), ((0, -1), -levels[0])]
     return band + bay
-
-
-def _extruded(planes, along, centre, thickness):
-    """Planes of the section given by `planes`, `thickness` [m] wide about `centre` [m] across the wall."""
-    across = 1 if along == "x" else 0
-    sides = [(sign * np.eye(3)[across], sign * centre + thickness / 2) for sign in (1, -1)]
-    return [(np.insert(np.asarray(normal, float), across, 0), offset) for normal, offset in planes] + sides

@@ -35,7 +35,9 @@ def build_house(description, snow_depth=None, check=True, wall_level=None):
         _lean(elements[1:], structures, data["plumb"])
     _number_repeats(elements)
     apply_loads(elements, structures, data["loads"])
-    _check_snow(data, elements, depth)
+    if depth > 0 and not any(element.kind == "snow" for element in elements):
+        raise HouseError(f"{data['snow'].at('depth')}: snow: {depth:g} m of snow, but no roof for it; "
+                         f"add a roof layer without 'snow: false' or set the depth to 0")
     joints = find_joints(elements, data, {pair: rule for s in structures.values() for pair, rule in s.named.items()})
     for structure in structures.values():
         joints += structure.further_joints(elements, joints, data, level)
@@ -64,12 +66,6 @@ def _structures(data):
     return structures
 
 
-def _check_snow(data, elements, depth):
-    if depth > 0 and not any(element.kind == "snow" for element in elements):
-        raise HouseError(f"{data['snow'].at('depth')}: snow: {depth:g} m of snow, but no roof for it; "
-                         f"add a roof layer without 'snow: false' or set the depth to 0")
-
-
 def _number_repeats(elements):
     """Repeated names (two beams on one line) get the suffix '.2', '.3', ...: joints refer to elements by name."""
     seen = Counter()
@@ -88,15 +84,6 @@ def _lean(elements, structures, plumb):
         element.move(element.vertices + plumb["drift"] * rise[:, None] * direction)
 
 
-def _plans(by_name, structure):
-    """{storey: FloorPlan} at mid height of the storey's columns, which may lean. by_name: {name: element}"""
-    plans = {}
-    for storey, plan in structure.plans.items():
-        place, name = next(iter(plan.columns.items()), (None, None))
-        plans[storey] = plan.moved(by_name[name].solid.centroid[:2] - place) if name else plan
-    return plans
-
-
 def _ground(data, structures):
     """Fixed box with its top at z = 0 under the middle of the first structure."""
     ground = data["ground"]
@@ -113,16 +100,16 @@ def _ground(data, structures):
 
 
 def _model(description, elements, joints, structures, depth):
-    data, by_name = description.data, {element.name: element for element in elements}
+    data, by_name, walls, plans = description.data, {element.name: element for element in elements}, {}, {}
+    for s in structures.values():
+        own, plans[s.name] = s.table["loads"]["wall"], {}
+        walls[s.name] = data["loads"]["wall"] if own is None else own
+        for storey, plan in s.plans.items():  # at mid height of the storey's columns, which may lean
+            place, name = next(iter(plan.columns.items()), (None, None))
+            plans[s.name][storey] = plan.moved(by_name[name].solid.centroid[:2] - place) if name else plan
     return HouseModel(data["name"], data["description"], elements, joints,
                       {k: dict(v) for k, v in data["materials"].items()},
                       [(*pair["between"], pair["coefficient"]) for pair in data["friction"]], dict(data["law"]), depth,
                       {s.name: s.levels for s in structures.values()},
                       {s.name: s.grid for s in structures.values() if isinstance(s, Grid)},
-                      {s.name: _plans(by_name, s) for s in structures.values()},
-                      {s.name: {**data["diagnosis"], "wall_load": _own(s, data, "wall")} for s in structures.values()})
-
-
-def _own(structure, data, key):
-    """A load of a structure: its own, or the house's."""
-    return data["loads"][key] if structure.table["loads"][key] is None else structure.table["loads"][key]
+                      plans, {name: {**data["diagnosis"], "wall_load": load} for name, load in walls.items()})

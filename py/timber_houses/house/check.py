@@ -13,15 +13,12 @@ TOUCH = 1e-7  # [m] overlaps up to this count as flush; rounding in the builder 
 
 
 def check_house(model):
-    """HouseError for the deepest overlap, a loose end of a column or brace, or an unsupported element.
-
-    Returns the numbers of near and of touching pairs, and the deepest overlap [m], from rounding.
-    """
+    """HouseError for the deepest overlap, a loose end of a column or brace, or an unsupported element. Returns the
+    numbers of near and of touching pairs, and the deepest overlap [m], from rounding."""
     gaps = overlaps(model)
     deepest = min(gaps, key=lambda row: row[2], default=None)
     if deepest and deepest[2] < -TOUCH:
-        a, b, gap = deepest
-        _report_overlap(a, b, gap, sum(gap < -TOUCH for _, _, gap in gaps))
+        _report_overlap(*deepest, sum(gap < -TOUCH for _, _, gap in gaps))
     touching = [(a, b) for a, b, gap in gaps if gap < TOUCH]
     _check_ends(model, touching)
     _check_supports(model, touching)
@@ -102,8 +99,11 @@ def _check_supports(model, touching):
         supports[joint.a].add(joint.b)
         supports[joint.b].add(joint.a)
     for a, b in touching:
-        if b.name not in supports[a.name]:
-            _add_support(supports, a, b)
+        contact = (None if b.name in supports[a.name] or a.fixed and b.fixed
+                   else contact_polygon(a.solid, b.solid, TOUCH))
+        if contact and abs(contact[1][2]) > LYING:
+            lower, upper = (a, b) if contact[1][2] > 0 else (b, a)
+            supports[lower.name].add(upper.name)
     todo = [element.name for element in model.elements if element.fixed]
     supported = set(todo)
     while todo:
@@ -111,21 +111,11 @@ def _check_supports(model, touching):
         supported |= new
         todo += new
     loose = [element for element in model.elements if element.name not in supported]
-    if loose:
-        _report_unsupported(model, min(loose, key=lambda element: element.solid.bounds[0][2]), len(loose) - 1)
-
-
-def _add_support(supports, a, b):
-    """Record which of two touching elements lies on the other with a face, if one does."""
-    contact = None if a.fixed and b.fixed else contact_polygon(a.solid, b.solid, TOUCH)
-    if contact and abs(contact[1][2]) > LYING:
-        lower, upper = (a, b) if contact[1][2] > 0 else (b, a)
-        supports[lower.name].add(upper.name)
-
-
-def _report_unsupported(model, element, others):
+    if not loose:
+        return
+    element = min(loose, key=lambda element: element.solid.bounds[0][2])
     x, y, _ = element.solid.centroid
-    more = f" (and {others} more elements)" if others else ""
+    more = f" (and {len(loose) - 1} more elements)" if len(loose) > 1 else ""
     raise HouseError(f"{element.source}: {element.kind} {element.name} is unsupported near x {x:.3f}, y {y:.3f}, z"
                      f" {element.solid.bounds[0][2]:.3f} m: it lies on no element and has no joint; support it, join it"
                      f" (a rule in 'joints') or remove it{more}{_close_by(model, element)}")

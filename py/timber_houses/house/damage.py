@@ -9,9 +9,8 @@ KINDS = ("column_beam", "brace_beam")
 
 
 def apply_damage(joints, structures, damage):
-    """Mark joints as broken. A region breaks `count` joints of a kind on one wall and storey, at one end: those
-    nearest to the middle of the wall, the southern or western one first.
-    """
+    """Mark joints as broken. A region breaks `count` joints of a kind on one wall and storey, at one end: those nearest
+    to the middle of the wall, the southern or western one first."""
     for i, region in enumerate(damage["regions"]):
         structure = structures[region["structure"] or next(iter(structures))]
         if not any(region[kind] for kind in KINDS):
@@ -19,8 +18,10 @@ def apply_damage(joints, structures, damage):
         for kind in KINDS:
             if region[kind] is not None:
                 _break(joints, structure, region, kind, damage["end"], f"damage.regions[{i + 1}].{kind}")
-    if damage["plate"] == "whole":
-        _break_plates(joints)
+    if damage["plate"] == "whole":  # one plate joins a brace's end to beam and column
+        torn = {(joint.a, joint.end) for joint in joints if joint.kind == "brace_beam" and joint.broken}
+        for joint in joints:
+            joint.broken |= joint.kind == "brace_column" and (joint.a, joint.end) in torn
 
 
 def _break(joints, structure, region, kind, default_end, path):
@@ -35,19 +36,8 @@ def _break(joints, structure, region, kind, default_end, path):
         raise HouseError(f"{wanted.at('count')}: {path}: {wanted['count']} joints are to be broken, but the {side} wall"
                          f" of {structure.name} has {len(candidates)} whole ones at the {end} of storey {storey}; lower"
                          " the count")
-    for joint in nearest_to_middle(candidates, structure, side)[: wanted["count"]]:
-        joint.broken = True
-
-
-def _break_plates(joints):
-    """Break the joints with columns of the braces' ends whose joints with beams are broken: one plate makes both."""
-    torn = {(joint.a, joint.end) for joint in joints if joint.kind == "brace_beam" and joint.broken}
-    for joint in joints:
-        joint.broken |= joint.kind == "brace_column" and (joint.a, joint.end) in torn
-
-
-def nearest_to_middle(joints, structure, side):
-    """Joints of a wall sorted by their distance from its middle, ties from south to north or west to east."""
     along = 1 if side in ("east", "west") else 0
     middle = np.mean(structure.area(), axis=0)[along]
-    return sorted(joints, key=lambda j: (round(abs(j.centre[along] - middle), 9), j.centre[along]))
+    candidates.sort(key=lambda j: (round(abs(j.centre[along] - middle), 9), j.centre[along]))
+    for joint in candidates[: wanted["count"]]:
+        joint.broken = True

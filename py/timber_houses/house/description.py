@@ -7,7 +7,7 @@ from ..base.input_file import is_file, is_folder, shown
 from ..base.remedies import nearest
 from .errors import HouseError
 from .friction import check_friction
-from .joint_values import check_joint_rules, check_joint_types, check_named_joints
+from .joint_values import check_joint_rules, check_joint_types
 from .layout import FRAME, HOUSE, MAX_SNOW, MAX_WOOD, MIN_SNOW
 from .loader import load_table, shipped_houses, shipped_paths
 from .parser import Table
@@ -37,23 +37,23 @@ def load_house(name_or_path):
 def checked(table, path):
     """A house file's tables with all defaults filled in; raises HouseError."""
     data = HOUSE.check(table, f"{path.name}:1", "")
-    _check_references(data)
-    _check_wood(data["materials"])
-    check_friction(data)
-    check_joint_types(data["joint_types"])
-    check_joint_rules(data["joints"], data["joint_types"])
-    check_named_joints(data["frame"], data["joint_types"])
-    check_wall_types(data["wall_types"])
-    require_snow_depth(data["snow"]["depth"], f"{data['snow'].at('depth')}: snow.depth")
-    return data
-
-
-def _check_wood(materials):
-    """HouseError for a material `timber`, that of all members which name none, of a density that no wood has."""
-    wood = materials.get("timber")
+    if not data["structures"] and not (data["frame"] and data["frame"]["members"]):
+        fail(data.at("structures"), "structures", "a house needs at least one structure, or a frame with members")
+    if FRAME in data["structures"] and data["frame"]:
+        fail(data["structures"].at(FRAME), "structures", f"'{FRAME}' is the name of the frame; choose another one")
+    for name, known, noun, where, path in _references(data):
+        if name not in known:
+            fail(where, path, f"unknown {noun} '{name}', {nearest(name, known)}")
+    wood = data["materials"].get("timber")  # of all members that name no material
     if wood is not None and wood["density"] > MAX_WOOD:
         fail(wood.at("density"), "materials.timber.density", f"must be at most {MAX_WOOD:g} kg/m3 as the density of"
              f" wood, got {wood['density']:g}; give other materials another name")
+    check_friction(data)
+    check_joint_types(data["joint_types"])
+    check_joint_rules(data)
+    check_wall_types(data["wall_types"])
+    require_snow_depth(data["snow"]["depth"], f"{data['snow'].at('depth')}: snow.depth")
+    return data
 
 
 def require_snow_depth(depth, where):
@@ -73,17 +73,6 @@ def house_path(name):
                          f" ({', '.join(shipped_houses())})")
     raise HouseError(f"unknown house {shown(str(name))}: no such regular file and no shipped house;"
                      f" {nearest(name, shipped_houses())}")
-
-
-def _check_references(data):
-    """Every referenced material, joint type, wall type and structure must exist."""
-    if not data["structures"] and not (data["frame"] and data["frame"]["members"]):
-        fail(data.at("structures"), "structures", "a house needs at least one structure, or a frame with members")
-    if FRAME in data["structures"] and data["frame"]:
-        fail(data["structures"].at(FRAME), "structures", f"'{FRAME}' is the name of the frame; choose another one")
-    for name, known, noun, where, path in _references(data):
-        if name not in known:
-            fail(where, path, f"unknown {noun} '{name}', {nearest(name, known)}")
 
 
 def _references(data):

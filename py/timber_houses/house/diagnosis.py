@@ -3,24 +3,21 @@
 eKfl dK / Qr.
 
 Each structure is judged alone. Directions: ew, ns - of the walls that resist. Coefficients, sources:
-diagnosis_tables.py.
-"""
+diagnosis_tables.py."""
 from collections import Counter
 from dataclasses import dataclass
 
 import numpy as np
 
-from ..base.gravity import weight_of
 from ..base.joint_kinds import WALL_COLUMN, WALL_KINDS
 from . import diagnosis_tables as rules
-from .loads import bay_length, upper_area
+from .loads import bay_length
 from .pushover import pushover, secant_periods
 from .wall_quantity import requirement
 from .wall_types import RATED_DRIFT
 from .weight import floor_area
 
-DIRECTIONS = {"ew": 0, "ns": 1}
-"""Direction and the index of its axis."""
+DIRECTIONS = {"ew": 0, "ns": 1}  # direction and the index of its axis
 
 
 @dataclass(frozen=True)
@@ -38,9 +35,7 @@ class RatedBay:
 
 def diagnose(model):
     """The part `diagnosis` of summaries: the least iw and wall quantity ratio, where they are, and of each structure.
-
-    None for what the rules do not give: a main structure of more than three storeys, or without floor area.
-    """
+    None for what the rules do not give: a main structure of more than three storeys, or without floor area."""
     structures = {group: _structure(model, group) for group, storeys in model.storey_levels.items() if storeys}
     is_rated = _least(dict(list(structures.items())[:1]), "iw")[0] is not None  # the main structure
     rated = structures if is_rated else {}
@@ -68,32 +63,24 @@ def judgement(iw):
 def sentence(diagnosis):
     """'seismic index Iw 0.54 (main, storey 1, E-W): likely to collapse under a very rare earthquake; ...; natural
     periods at a drift of 1/120: N-S 0.60 s, E-W 0.59 s'."""
-    return _index_sentence(diagnosis) + _periods_sentence(next(iter(diagnosis["structures"].values()), None))
-
-
-def _periods_sentence(structure):
-    """Of the main structure; empty where walls and braces give it none."""
+    if diagnosis["iw"] is None:
+        index = "no seismic index: the rules are for one to three storeys with a floor area"
+    else:
+        ratio = 100 * diagnosis["wall_quantity_ratio"]
+        index = (f"seismic index Iw {diagnosis['iw']:.2f} ({diagnosis['iw_at']}): {diagnosis['judgement']} under a very"
+                 f" rare earthquake; least wall quantity {ratio:.0f} % of the required one by the {diagnosis['rule']}"
+                 f" ({diagnosis['wall_quantity_at']})")
+    structure = next(iter(diagnosis["structures"].values()), None)  # the main one
     periods = {name: period for name in ("ns", "ew") if structure and (period := structure["periods_s"][name])}
     if not periods:
-        return ""
+        return index
     values = ", ".join(f"{rules.DIRECTION_NAMES[name]} {period:.2f} s" for name, period in periods.items())
-    return f"; natural periods at a drift of 1/{1 / structure['periods_s']['drift']:.0f}: {values}"
-
-
-def _index_sentence(diagnosis):
-    if diagnosis["iw"] is None:
-        return "no seismic index: the rules are for one to three storeys with a floor area"
-    return (f"seismic index Iw {diagnosis['iw']:.2f} ({diagnosis['iw_at']}): {diagnosis['judgement']} under a very rare"
-            f" earthquake; least wall quantity {100 * diagnosis['wall_quantity_ratio']:.0f} % of the required one"
-            f" by the {diagnosis['rule']} ({diagnosis['wall_quantity_at']})")
+    return f"{index}; natural periods at a drift of 1/{1 / structure['periods_s']['drift']:.0f}: {values}"
 
 
 def comparison(summary):
-    """Sentence on the first structure of a Summary whose index and outcome disagree; '' if none does.
-
-    A structure that stands without an earthquake, or at the end of a run that left strong shaking out, agrees with
-    every index.
-    """
+    """Sentence on the first structure of a Summary whose index and outcome disagree; '' if none does. A structure that
+    stands without an earthquake, or at the end of a run that left strong shaking out, agrees with every index."""
     for name, facts in summary.structures.items():
         iw = _least({name: summary.diagnosis.structures.get(name, {"storeys": {}})}, "iw")[0]
         stands_untested = not facts.collapsed and (not summary.earthquake or summary.missed_shaking is not None)
@@ -120,23 +107,18 @@ def _circumstances(summary):
 
 
 def _structure(model, group):
-    storeys, roof = sorted(model.storey_levels[group]), _roof_class(model, group)
-    needs = requirement(model, group, roof)
+    storeys, needs = sorted(model.storey_levels[group]), requirement(model, group)
     bays = _bays(model, group, needs.rule.largest_multiplier)
-    strengths = dict(enumerate(_required_strengths(roof, len(storeys), model.snow_depth), 1))
+    first, last = rules.SNOW_DEPTHS
+    addition = rules.SNOW_STRENGTH * min(model.snow_depth, last) if model.snow_depth >= first else 0.0
+    strengths = {k: strength + addition for k, strength  # Qr [kN/m2], empty beyond three storeys
+                 in enumerate(rules.REQUIRED_STRENGTH[needs.roof_class].get(len(storeys), ()), 1)}
     curves = pushover(model, group)
-    return {"roof": roof, **needs.table(),
+    return {"roof": needs.roof_class, **needs.table(),
             "periods_s": {"drift": RATED_DRIFT, **secant_periods(model, group, curves, RATED_DRIFT)},
             "storeys": {str(storey): _storey(model, group, storey, needs, strengths.get(storey), bays, curves)
                         for storey in storeys},
             "uplift": _uplift(model, group, bays)}
-
-
-def _required_strengths(roof, storeys, snow):
-    """[Qr [kN/m2]] of the storeys, empty beyond three. snow: depth [m]"""
-    first, last = rules.SNOW_DEPTHS
-    addition = rules.SNOW_STRENGTH * min(snow, last) if snow >= first else 0.0
-    return [strength + addition for strength in rules.REQUIRED_STRENGTH[roof].get(storeys, ())]
 
 
 def _storey(model, group, storey, needs, strength, bays, curves):
@@ -193,8 +175,7 @@ def _quarters(bays, axis, plans, storey, needs):
     """[low, high] existing bearing walls over the required quantity of the outer quarters of a storey's extent across
     an axis, for the floor within each. plans: {storey: FloorPlan}
 
-    The extent is the largest one (Notification 1352; compared: fukuicompu.co.jp, manual of ZERO, side parts).
-    """
+    The extent is the largest one (Notification 1352; compared: fukuicompu.co.jp, manual of ZERO, side parts)."""
     across = 1 - axis
     low, high = plans[storey].bounds[:, across]
     quarter = (high - low) / 4
@@ -208,10 +189,8 @@ def _quarters(bays, axis, plans, storey, needs):
 
 
 def _eccentricities(bays, mass):
-    """[Re of each axis]: distance of the centres of mass and rigidity over the elastic radius; None without walls.
-
-    The rigidity of a bay is its wall quantity: bays of a storey have one height.
-    """
+    """[Re of each axis]: distance of the centres of mass and rigidity over the elastic radius; None without walls. The
+    rigidity of a bay is its wall quantity: bays of a storey have one height."""
     sides = {axis: [bay for bay in bays if bay.axis == axis] for axis in (0, 1)}
     sums = {axis: sum(bay.quantity for bay in mine) for axis, mine in sides.items()}
     centre = {axis: sum(bay.quantity * bay.centre[1 - axis] for bay in mine) / sums[axis]
@@ -229,20 +208,17 @@ def _mass_centre(model, group, storey):
     return sum(e.mass * e.solid.centroid[:2] for e in carried) / total if total > 0 else np.zeros(2)
 
 
-def _roof_class(model, group):
-    roofs = model.of_kind("roof", group=group)
-    area = sum(upper_area(roof) for roof in roofs)
-    load = weight_of(sum(roof.mass for roof in roofs)) / area if area > 0 else 0.0
-    return next(name for least, name in rules.ROOF_CLASSES if load >= least)
-
-
 # --- bays -------------------------------------------------------------------------------------------------------------
 
 
 def _bays(model, group, largest):
     """RatedBays of a structure. largest: sum of the multipliers of a bay [-]"""
     totals, quasi = Counter(), Counter()
-    for low, high, multiplier, panels in [*_sheets(model, group), *_braces(model, group)]:
+    sheets = [joint.sheet for joint in model.joints
+              if joint.kind == WALL_COLUMN and joint.group == group and not joint.broken]
+    walls = [(model.element(sheet.low), model.element(sheet.high), sheet.multiplier, sheet.quasi_multiplier)
+             for sheet in sheets]
+    for low, high, multiplier, panels in [*walls, *_braces(model, group)]:
         columns = tuple(sorted((low, high), key=lambda column: column.name))
         totals[columns] += multiplier
         quasi[columns] += panels
@@ -253,14 +229,6 @@ def _bays(model, group, largest):
         bays.append(RatedBay(columns, multiplier, int(np.argmax(np.abs(high - low))), multiplier * length,
                              min(quasi[columns], largest - multiplier) * length, (low + high) / 2))
     return bays
-
-
-def _sheets(model, group):
-    """(column, column, multiplier, quasi-bearing multiplier) of walls that count."""
-    for joint in model.joints:
-        if joint.kind == WALL_COLUMN and joint.group == group and not joint.broken:
-            sheet = joint.sheet
-            yield model.element(sheet.low), model.element(sheet.high), sheet.multiplier, sheet.quasi_multiplier
 
 
 def _braces(model, group):
@@ -287,16 +255,13 @@ def brace_multiplier(section):
 
 
 def _uplift(model, group, bays):
-    """Columns whose feet need more tension by the N-value method than their joint has, and the largest need [kN].
-
-    The corrections for the direction of braces are left out.
-    """
+    """Columns whose feet need more tension by the N-value method than their joint has, and the largest need [kN]. The
+    corrections for the direction of braces are left out."""
     columns = {(storey, place): model.element(name) for storey, plan in model.plans[group].items()
                for place, name in plan.columns.items()}
     strengths = _foot_strengths(model)
-    needs = [(n_value(columns, key, bays, model.plans[group]), strengths.get(column.name, 0.0), column.name)
-             for key, column in columns.items()]
-    rows = [(max(0.0, n) * rules.UPLIFT_KN, strength, name) for n, strength, name in needs]
+    rows = [(max(0.0, n_value(columns, key, bays, model.plans[group])) * rules.UPLIFT_KN,
+             strengths.get(column.name, 0.0), column.name) for key, column in columns.items()]
     if not rows:
         return None
     need, strength, name = max(rows, key=lambda row: row[0])
@@ -305,10 +270,8 @@ def _uplift(model, group, bays):
 
 
 def n_value(columns, key, bays, plans):
-    """N = sum of A B over a column and those above, less L; the larger direction.
-
-    columns: {(storey, (x, y) as laid): ...}; plans: {storey: FloorPlan}
-    """
+    """N = sum of A B over a column and those above, less L; the larger direction. columns: {(storey, (x, y) as laid):
+    ...}; plans: {storey: FloorPlan}"""
     storey, node = key
     stack = [columns[level, node] for level in sorted(plans) if level >= storey and (level, node) in columns]
     corner = [plans[column.storey].is_corner(*column.solid.centroid[:2]) for column in stack]
@@ -332,7 +295,6 @@ def _foot_strengths(model):
     strengths = {}
     for joint in model.joints:
         if joint.end == "bottom" and joint.kind not in WALL_KINDS and model.element(joint.a).kind == "column":
-            whole = joint.strength * (1 if joint.per == "joint" else len(joint.points))
-            allowable = whole * (rules.ALLOWABLE_YIELD if joint.law == "slip" else 1.0)
+            allowable = joint.whole(joint.strength) * (rules.ALLOWABLE_YIELD if joint.law == "slip" else 1.0)
             strengths[joint.a] = strengths.get(joint.a, 0.0) + (0.0 if joint.broken else allowable / 1000)
     return strengths

@@ -3,16 +3,14 @@
 
 Order: Enforcement Order of the Building Standard Law; its rules of wall quantity: wall_quantity.py. JBDPA: seismic
 diagnosis of wooden houses, general diagnosis (Japan Building Disaster Prevention Association, 2012). None of them was
-at hand: 'compared' names the published text that repeats the numbers, 'not verified' is from memory of the source.
-"""
+at hand: 'compared' names the published text that repeats the numbers, 'not verified' is from memory of the source."""
 DIRECTION_NAMES = {"ew": "E-W", "ns": "N-S"}
 ALLOWABLE_KN_M = 1.96
 """Allowable shear of a wall of multiplier 1. [kN/m] (Order, Article 46; compared: stmaki.com, N-value method)"""
 BRACES = ((0.090, 3.0), (0.045, 2.0), (0.030, 1.5), (0.015, 1.0))
 """(least thickness [m], multiplier [-]) of a brace 90 mm wide or more. (Order, Article 46, Table 1; compared: 15 mm
 kenchikuyogo.com, 30 and 45 mm what-myhome.net; 90 mm not verified)"""
-BRACE_WIDTH = 0.090
-"""Least width of a brace; 90 mm thick ones are square. [m] (Order, Article 46, Table 1)"""
+BRACE_WIDTH = 0.090  # least width of a brace; 90 mm thick ones are square. [m] (Order, Article 46, Table 1)
 ROOF_CLASSES = ((1.01, "very_heavy"), (0.69, "heavy"), (0.0, "light"))
 """(least weight of the roof with its ceiling [kN/m2 of its surface], class). Limits (assumed) lie halfway between the
 roofs of the Order, Article 84: slates 0.34, tiles 0.64, tiles on mud 0.98, each with purlins 0.05 and ceiling 0.15."""
@@ -39,8 +37,7 @@ BANDS = ((1.5, "will not collapse"), (1.0, "unlikely to collapse"), (0.7, "may c
 """(least Iw, judgement) under a very rare earthquake. (JBDPA; compared: mokutaikyo.com)"""
 VERY_RARE_PEAK = 4.0
 """Peak acceleration of a very rare earthquake: its response is 1 g (Order, Article 88), 2.5 times. [m/s2] (assumed)"""
-ECCENTRICITY_LIMIT = 0.30
-"""[-] (Notification 1352 of 2000; compared: what-myhome.net)"""
+ECCENTRICITY_LIMIT = 0.30  # [-] (Notification 1352 of 2000; compared: what-myhome.net)
 ECCENTRICITY_START, ECCENTRICITY_END = 0.15, 0.45
 """Between them eKfl = 1 / (3.33 Re + 0.5), for rigid floors, as those of the model; 0.5 beyond. [-] (JBDPA; the ends
 compared with the program kouzou, which is linear between them; the formula not verified)"""

@@ -9,9 +9,7 @@ LARGEST = 1e-9
 
 def disturb(model, seed):
     """Move each vertex of a HouseModel's free elements by a random vector in a cube, at most LARGEST long, in place.
-
-    seed: whole number >= 1. Joints and masses that were computed before are left alone.
-    """
+    seed: whole number >= 1. Joints and masses that were computed before are left alone."""
     random = np.random.default_rng(seed)
     reach = LARGEST / np.sqrt(3)  # half an edge of the cube [m]
     for element in model.elements:

@@ -2,8 +2,7 @@
 """A structure of single members and plates: the part `frame` of a house file. Lengths in m. Interface: grid.py.
 
 Columns and braces belong to the storey in which their feet are, other members to the nearest level; what is higher than
-the last level carries the number of storeys + 1 (columns, braces) or that of the last storey.
-"""
+the last level carries the number of storeys + 1 (columns, braces) or that of the last storey."""
 from collections import Counter
 
 import numpy as np
@@ -16,8 +15,7 @@ from .model import Element
 from .plan import floor_plan
 from .schema import fail
 
-STEP = 0.5
-"""Least distance of levels, and of columns' feet that do not stand on one level. [m]"""
+STEP = 0.5  # least distance of levels, and of columns' feet that do not stand on one level. [m]
 SLABS = ("floor", "roof")
 
 
@@ -29,12 +27,17 @@ class Frame:
     def __init__(self, table, materials):
         self.table, self.materials = table, materials
         self.parts = Parts(table["members"], table["plates"])
-        self._require_names()
+        twice = table["members"].keys() & table["plates"].keys()
+        if twice:
+            fail(table["plates"].at(min(twice)), f"frame.plates.{min(twice)}", "a member has this name; choose another"
+                 " one")
         self.elements, self.tops = [], {}
         for name, entry in self.parts.tables.items():
             self._add(name, entry)
-        self.named = {frozenset(f"{FRAME}.{self._known(name, rule, i)}" for name in rule["between"]): rule
-                      for i, rule in enumerate(table["joints"], 1)}
+        for i, rule in enumerate(table["joints"], 1):
+            for name in rule["between"]:
+                self.parts.find(name, rule.at("between"), f"frame.joints[{i}].between")
+        self.named = {frozenset(f"{FRAME}.{name}" for name in rule["between"]): rule for rule in table["joints"]}
         self.levels = self._given_levels() if table["storeys"] else self._found_levels()
         feet = [foot for foot, _ in self.levels.values()]
         self.heights = dict(zip(self.levels, np.diff([*feet, self.levels[len(feet)][1]]).tolist()))
@@ -61,16 +64,7 @@ class Frame:
     def further_joints(self, _elements, _joints, _data, _level):
         return []
 
-    # --- members ------------------------------------------------------------------------------------------------------
-
-    def _require_names(self):
-        twice = self.table["members"].keys() & self.table["plates"].keys()
-        if twice:
-            name = min(twice)
-            fail(self.table["plates"].at(name), f"frame.plates.{name}", "a member has this name; choose another one")
-
     def _add(self, name, entry):
-        """Elements of all copies of a part."""
         copies, is_plate = self.parts[name], name in self.table["plates"]
         if len(self.elements) + len(copies) > MAX_ELEMENTS:
             fail(entry.where, self.parts.path(name), f"more than {MAX_ELEMENTS} elements; make the frame smaller")
@@ -88,13 +82,6 @@ class Frame:
         return Element(f"{FRAME}.{label}", kind, vertices, material, self.materials[material]["density"], group=FRAME,
                        source=where, **more)
 
-    def _known(self, name, rule, number):
-        """Name of a member of a named joint, with or without the number of its copy."""
-        self.parts.find(name, rule.at("between"), f"frame.joints[{number}].between")
-        return name
-
-    # --- storeys ------------------------------------------------------------------------------------------------------
-
     def _given_levels(self):
         storeys = self.table["storeys"]
         heights = [z for storey in storeys for z in storey]
@@ -110,7 +97,8 @@ class Frame:
         standing = [e.solid.bounds[:, 2] for e in columns or self.elements]
         foot = float(min(low for low, _ in standing))
         slabs = sorted(tuple(e.solid.bounds[:, 2].tolist()) for e in self.elements
-                       if e.kind in SLABS and np.ptp(e.solid.bounds[:, 2]) < STEP and _is_level(e))
+                       if e.kind in SLABS and np.ptp(e.solid.bounds[:, 2]) < STEP
+                       and max(e.solid.face_normals[:, 2]) > 1 - 1e-6)
         levels: dict = {}
         for low, high in slabs:
             if low - foot >= STEP:
@@ -150,7 +138,3 @@ class Frame:
         band = max(element.section)
         near = {"west": east - x0, "east": x1 - west, "south": north - y0, "north": y1 - south}
         return frozenset(side for side, distance in near.items() if distance < band)
-
-
-def _is_level(element):
-    return max(element.solid.face_normals[:, 2]) > 1 - 1e-6

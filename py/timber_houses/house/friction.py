@@ -2,15 +2,12 @@
 """Friction of material pairs. A description must have YADE's form: the smaller coefficient of both materials."""
 from .errors import HouseError
 
-DEFAULT = 0.5
-"""Coefficient of a material whose pair with itself is not in the file, that of the class ElementMat. [-]"""
+DEFAULT = 0.5  # coefficient of a material whose pair with itself is not in the file, that of the class ElementMat. [-]
 
 
 def own_coefficient(name, law, pairs):
-    """Coefficient [-] of one material: that of its pair with itself; for snow the smallest of all its pairs.
-
-    law: 'timber' or 'snow'; pairs: [(material, material, coefficient)]
-    """
+    """Coefficient [-] of one material: that of its pair with itself; for snow the smallest of all its pairs. law:
+    'timber' or 'snow'; pairs: [(material, material, coefficient)]"""
     alone = [c for a, b, c in pairs if a == b == name] or [DEFAULT]
     return min(alone + [c for a, b, c in pairs if name in (a, b) and law == "snow"])
 

@@ -142,10 +142,8 @@ def box(low, high):
 
 
 def halfspace_vertices(planes):
-    """Vertices (n, 3) of the region where normal . x <= offset for every (normal (3,), offset [m]) of `planes`.
-
-    Every triple of planes is solved, exact to rounding. Raises ValueError for an empty or flat region.
-    """
+    """Vertices (n, 3) of the region where normal . x <= offset for every (normal (3,), offset [m]) of `planes`. Every
+    triple of planes is solved, exact to rounding. Raises ValueError for an empty or flat region."""
     normals = np.array([p[0] for p in planes], float)
     scale = np.linalg.norm(normals, axis=1)
     normals, offsets = normals / scale[:, None], np.array([p[1] for p in planes], float) / scale
@@ -207,10 +205,8 @@ def _clip_edge(polygon, a, b):
 
 @lru_cache(maxsize=KEPT)
 def contact_polygon(a, b, tolerance):
-    """Largest flush contact of two polyhedra: (polygon (n, 3), outward normal of a (3,), area [m2]), or None.
-
-    Flush: opposite normals and every vertex of b's face within `tolerance` [m] of the plane of a's face.
-    """
+    """Largest flush contact of two polyhedra: (polygon (n, 3), outward normal of a (3,), area [m2]), or None. Flush:
+    opposite normals and every vertex of b's face within `tolerance` [m] of the plane of a's face."""
     best = None
     for i, j in np.argwhere(a.face_normals @ b.face_normals.T <= -1 + SAME):
         face_a, face_b = a.faces[i], b.faces[j]
@@ -233,10 +229,8 @@ def separation(a, b):
 
 @lru_cache(maxsize=KEPT)
 def _separation(a, b):
-    """(gap [m], unit vector from a to b) of the best separating axis.
-
-    Separating axis theorem: face normals of both and cross products of their edges decide exactly for convex bodies.
-    """
+    """(gap [m], unit vector from a to b) of the best separating axis. Separating axis theorem: face normals of both and
+    cross products of their edges decide exactly for convex bodies."""
     crosses = cross(a.edge_directions[:, None], b.edge_directions[None]).reshape(-1, 3)
     norms = np.linalg.norm(crosses, axis=1)
     crosses = crosses[norms > 1e3 * SAME] / norms[norms > 1e3 * SAME][:, None]

@@ -3,8 +3,7 @@
 
 A structure of any kind (Grid, frame.Frame) has `name`, `table` with its `loads`, `margin` [m], `area()`, `levels`
 {storey: (foot, head) [m]}, `heights` {storey: [m]}, `plans` {storey: FloorPlan}, `named` joints, `lay(snow)` and
-`further_joints(elements, joints, data, level)`. All else, as joints, loads and damage, is the same for both.
-"""
+`further_joints(elements, joints, data, level)`. All else, as joints, loads and damage, is the same for both."""
 from .braces import lay_braces
 from .errors import HouseError
 from .members import column_plan, lay_columns, lay_floors, lay_strips
@@ -30,20 +29,21 @@ class Grid(Structure):
 
     def lay(self, snow):
         """All elements. snow: (depth [m], material)"""
-        return [element for layer in self.layers for element in self._layer(layer, snow)]
+        elements = []
+        for layer in self.layers:
+            if layer.kind in STRIPS:
+                elements += lay_strips(self, layer, STRIPS[layer.kind])
+            elif layer.kind == "floor":
+                elements += lay_floors(self, layer)
+            elif layer.kind == "columns":
+                elements += lay_columns(self, layer) + lay_braces(self, layer)
+            else:
+                elements += lay_roof(self, layer) + lay_snow(self, layer, *snow)
+        return elements
 
     def further_joints(self, elements, joints, data, level):
         """JointSpecs of roofs and walls; changes those of ridges. level: of rated walls"""
         return [*carry_roofs(self, elements, joints), *sheathe(self, elements, data, level)]
-
-    def _layer(self, layer, snow):
-        if layer.kind in STRIPS:
-            return lay_strips(self, layer, STRIPS[layer.kind])
-        if layer.kind == "floor":
-            return lay_floors(self, layer)
-        if layer.kind == "columns":
-            return lay_columns(self, layer) + lay_braces(self, layer)
-        return lay_roof(self, layer) + lay_snow(self, layer, *snow)
 
     def _height(self, storey):
         """From the foot of a storey's columns to that of the next storey, or to the roof. [m]"""
@@ -55,8 +55,11 @@ class Grid(Structure):
     def _plan(self, storey):
         columns = {(self.position("x", x), self.position("y", y)): f"{self.name}.column{storey}.x{x:g}y{y:g}"
                    for x, y in column_plan(self, storey)}
-        return floor_plan(columns, [self.area(area, beyond=-self.margin) for layer in self.layers
-                                    for area in _areas(layer) if layer.storey >= storey])
+        areas = []  # of the slabs above
+        for layer in (layer for layer in self.layers if layer.storey >= storey):
+            areas += (layer.table["areas"] or [None] if layer.kind == "floor"
+                      else [layer.table["area"]] if layer.kind == "roof" else [])
+        return floor_plan(columns, [self.area(area, beyond=-self.margin) for area in areas])
 
     def require_storeys(self):
         """HouseError for a storey of columns, braces or walls that the stack does not have."""
@@ -71,10 +74,3 @@ class Grid(Structure):
             if absent:
                 raise HouseError(f"{line.at('storeys')}: {self.name}: {part}: no storey {absent[0]}; the stack has"
                                  f" {storeys}")
-
-
-def _areas(layer):
-    """Areas of the slabs of a layer; none of other layers than floors and roofs."""
-    if layer.kind == "floor":
-        return layer.table["areas"] or [None]
-    return [layer.table["area"]] if layer.kind == "roof" else []

@@ -35,17 +35,26 @@ def kinds_of(rule):
 
 
 def first(kind):
-    """Sorts the kinds of the two members of a joint."""
     return (*END_JOINED, kind).index(kind)
 
 
-def check_joint_rules(rules, types):
-    """HouseError for two rules for the same kinds of members, for a kind of joint that only walls have, and for a
-    strength that a yielding joint cannot have."""
-    for name, rule in rules.items():
-        _check_rule(rule, f"joints.{name}", types)
+def check_joint_rules(data):
+    """HouseError for two rules for the same kinds of members; for a kind of joint that only walls have, and for a
+    strength that a yielding joint cannot have, also of a rule for members of the frame that are given by their names.
+    """
+    named = data["frame"]["joints"] if data["frame"] else ()
+    for path, rule in [*((f"joints.{name}", rule) for name, rule in data["joints"].items()),
+                       *((f"frame.joints[{i}]", rule) for i, rule in enumerate(named, 1))]:
+        table = data["joint_types"][rule["type"]]
+        most = rule["number"] * rule["share"] * table["kn"] * (table["softening_stretch"] or 0.0)
+        if table["law"] == "slip" and rule["strength"] is not None and not rule["strength"] < most:
+            fail(rule.at("strength"), f"{path}.strength", f"must be below number x share x kn x softening_stretch ="
+                 f" {most:g} N with law slip, got {rule['strength']:g}")
+        if rule["kind"] in WALL_KINDS:
+            fail(rule.at("kind"), f"{path}.kind",
+                 f"'{rule['kind']}' is the kind of the joints of sheathed walls; choose another name")
     names = {}
-    for name, rule in rules.items():
+    for name, rule in data["joints"].items():
         for a, b in map(sorted, kinds_of(rule)):
             first = names.setdefault((a, b, rule["across"]), name)
             if first != name:
@@ -53,29 +62,9 @@ def check_joint_rules(rules, types):
                      f"joins {a} and {b} as joints.{first} does; remove one, with null if it is inherited")
 
 
-def check_named_joints(frame, types):
-    """The same of the joints of a frame that are given by the names of their members. frame: table or None"""
-    for i, rule in enumerate(frame["joints"] if frame else (), 1):
-        _check_rule(rule, f"frame.joints[{i}]", types)
-
-
-def _check_rule(rule, path, types):
-    table = types[rule["type"]]
-    if table["law"] == "slip" and rule["strength"] is not None:
-        most = rule["number"] * rule["share"] * table["kn"] * table["softening_stretch"]
-        if not rule["strength"] < most:
-            fail(rule.at("strength"), f"{path}.strength", f"must be below number x share x kn x softening_stretch ="
-                 f" {most:g} N with law slip, got {rule['strength']:g}")
-    if rule["kind"] in WALL_KINDS:
-        fail(rule.at("kind"), f"{path}.kind",
-             f"'{rule['kind']}' is the kind of the joints of sheathed walls; choose another name")
-
-
 def joint_values(data, rule, part=1):
-    """Entries of JointSpec, and `at`, that follow from the house file (checked) and the rule of a joint.
-
-    part: of the rule's fittings that this joint has [-]
-    """
+    """Entries of JointSpec, and `at`, that follow from the house file (checked) and the rule of a joint. part: of the
+    rule's fittings that this joint has [-]"""
     table = data["joint_types"][rule["type"]]
     factor = rule["number"] * rule["share"] * part
     return {"at": table["at"], "type": rule["type"], "kind": rule["kind"], "law": table["law"],

@@ -24,8 +24,7 @@ def find_joints(elements, data, named=None):
 
     Contacts below `joint_search.min_area` get none: a 12 cm column touches the beam beside its own by a strip. Joints
     of a rule at one face of an end share its fittings by their areas: a column end on two crossing beams. HouseError
-    for a rule between structures, or of two named members, that joins none.
-    """
+    for a rule between structures, or of two named members, that joins none."""
     named = named or {}
     contacts = _contacts(elements, data, named)
     used, structures = {key for *_, key, _ in contacts}, {e.group for e in elements if e.kind != "ground"}
@@ -36,7 +35,8 @@ def find_joints(elements, data, named=None):
     for pair, rule in named.items():
         if pair not in used:
             _report_apart(elements, pair, rule)
-    faces = [_end_face(a, key, contact) for a, _, key, contact in contacts]
+    faces = [(a.name, key, *np.round(contact[1], 3)) if _is_end(a, contact[1]) else None
+             for a, _, key, contact in contacts]  # of a column's or brace's end that a rule joins
     areas = Counter()
     for face, (*_, contact) in zip(faces, contacts):
         areas[face] += contact[2]
@@ -81,11 +81,6 @@ def _report_apart(elements, pair, rule):
          f" {1e3 * gap:.3g} mm apart, or touch by an edge: let an end lie flush on the other member, or state a gap")
 
 
-def _end_face(a, name, contact):
-    """Key of the face of a column's or brace's end that a rule joins; None elsewhere."""
-    return (a.name, name, *np.round(contact[1], 3)) if _is_end(a, contact[1]) else None
-
-
 def _is_end(a, normal):
     """Whether a face of an element is that of an end. Columns of two wings have joints at their sides."""
     return a.kind in END_JOINED and (a.kind != "column" or abs(normal[2]) > LYING)
@@ -117,18 +112,12 @@ def _joint(a, b, contact, values):
 
 
 def spring_points(polygon, normal):
-    """Four spring points (4, 3) [m] of a contact polygon (n, 3), counter-clockwise about `normal`.
-
-    Of more than four corners, the four with the largest area; of three, these and the middle of the longest side.
-    """
+    """Four spring points (4, 3) [m] of a contact polygon (n, 3), counter-clockwise about `normal`. Of more than four
+    corners, the four with the largest area; of three, these and the middle of the longest side."""
     if len(polygon) == 3:
-        return _with_midpoint(polygon)
+        following = np.roll(polygon, -1, 0)
+        longest = int(np.argmax(np.round(np.linalg.norm(following - polygon, axis=1), 9)))
+        return np.insert(polygon, longest + 1, (polygon[longest] + following[longest]) / 2, 0)
     flat = polygon @ np.array(plane_axes(normal)).T
     chosen = max(combinations(range(len(polygon)), 4), key=lambda four: round(polygon_area(flat[list(four)]), 9))
     return polygon[list(chosen)]
-
-
-def _with_midpoint(triangle):
-    following = np.roll(triangle, -1, 0)
-    longest = int(np.argmax(np.round(np.linalg.norm(following - triangle, axis=1), 9)))
-    return np.insert(triangle, longest + 1, (triangle[longest] + following[longest]) / 2, 0)

@@ -5,20 +5,13 @@ from .schema import REQUIRED, Choice, Either, Flag, ListOf, MapOf, Number, Pair,
 
 SIDES = ("north", "south", "east", "west")
 KINDS = ("foundation", "sill", "column", "beam", "rafter", "floor", "brace", "roof", "snow", "ground")
-FRAME = "frame"
-"""Key of the frame, and its name among the structures."""
-MIN_SNOW, MAX_SNOW = 1e-3, 6.0
-"""Range of the depth of snow, which may also be 0. [m]"""
-MAX_WOOD = 1400.0
-"""Density of a material `timber`; the heaviest woods have 1300. [kg/m3]"""
-MIN_SPACING = 0.01
-"""Smallest distance of two grid positions. [m]"""
-MAX_STOREYS, MAX_LAYERS, MAX_AREAS, MAX_REGIONS = 20, 50, 50, 50
-"""Of one structure; MAX_REGIONS of the house's damage."""
-MAX_POINTS, MAX_BOARDS = 50, 20
-"""Of a wall type: points of its envelope, boards above one another."""
-WALL_LEVELS = ("design", "mean")
-"""Levels of walls of a rated multiplier: wall_types.LEVELS."""
+FRAME = "frame"  # key of the frame, and its name among the structures
+MIN_SNOW, MAX_SNOW = 1e-3, 6.0  # range of the depth of snow, which may also be 0. [m]
+MAX_WOOD = 1400.0  # density of a material `timber`; the heaviest woods have 1300. [kg/m3]
+MIN_SPACING = 0.01  # smallest distance of two grid positions. [m]
+MAX_STOREYS, MAX_LAYERS, MAX_AREAS, MAX_REGIONS = 20, 50, 50, 50  # of one structure; MAX_REGIONS of the house's damage
+MAX_POINTS, MAX_BOARDS = 50, 20  # of a wall type: points of its envelope, boards above one another
+WALL_LEVELS = ("design", "mean")  # levels of walls of a rated multiplier: wall_types.LEVELS
 
 
 def length(low=0.0, high=100.0, default=REQUIRED, open_low=True):

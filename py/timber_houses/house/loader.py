@@ -13,10 +13,8 @@ COMMON = ("base", "paper", "plated", "frame", "cad")
 """Shipped files that houses extend: materials and joints; frame of the paper's houses; joints with metal plates; joints
 of frames of single members, and from CAD."""
 BTLX = ".btlx"
-SUFFIXES = (".yaml", ".yml", BTLX)
-"""Of house files that another file names."""
-ADDS = "+"
-"""Ending of a key whose list is added to the inherited one."""
+SUFFIXES = (".yaml", ".yml", BTLX)  # of house files that another file names
+ADDS = "+"  # ending of a key whose list is added to the inherited one
 SHIPPED = Path(__file__).resolve().parents[1] / "data" / "houses"
 
 
@@ -59,21 +57,16 @@ def _chain(path):
 
 
 def _table(path, nodes_left):
-    """(Table, number of YAML values) of one file."""
-    if _is_btlx(path):
+    if path.suffix.lower() == BTLX:
         return btlx.btlx_table(_content(path), path.name), 0
     return parse_table(text_of(path), path.name, nodes_left)
 
 
 def btlx_text(path):
     """YAML of a house file of what is read of a BTLx file. Raises HouseError."""
-    if not _is_btlx(path):
+    if path.suffix.lower() != BTLX:
         raise HouseError(f"{shown(str(path))}: is no BTLx file; its name must end in {BTLX}")
     return house_text(plain(_table(path, 0)[0]), in_lines=True)
-
-
-def _is_btlx(path):
-    return path.suffix.lower() == BTLX
 
 
 def text_of(path):
@@ -85,7 +78,7 @@ def text_of(path):
 
 def _content(path):
     try:
-        return read_bytes(path, btlx.MAX_FILE_SIZE if _is_btlx(path) else MAX_FILE_SIZE)
+        return read_bytes(path, btlx.MAX_FILE_SIZE if path.suffix.lower() == BTLX else MAX_FILE_SIZE)
     except OSError as problem:
         raise HouseError(f"{path}: cannot be read: {problem.strerror}") from None
 
@@ -152,8 +145,7 @@ def added(items, more, where, name):
     return Items(sum(map(list, both), []), where, sum((entry.entries for entry in both), []))
 
 
-_noted: set = set()
-"""Replacements that were noted: a run reads its house file several times."""
+_noted: set = set()  # replacements that were noted: a run reads its house file several times
 
 
 def note_replaced(items, value, where, name):

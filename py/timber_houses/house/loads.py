@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Loads in kN per m2: of roof surface and floor with the slab itself, of outer wall beside its columns.
 
-A load becomes mass of its member, spread evenly: of the slab, or of the columns at both ends of a bay.
-"""
+A load becomes mass of its member, spread evenly: of the slab, or of the columns at both ends of a bay."""
 import numpy as np
 
 from ..base.gravity import mass_of
@@ -26,22 +25,16 @@ def apply_loads(elements, structures, loads):
             earlier.append(structure)
 
 
-def upper_area(element):
-    """Area of the faces that look upwards: of a slab, the surface of roof or floor. [m2]"""
-    return sum(abs(polygon_area(face.points @ face.axes.T)) for face in element.solid.faces if face.normal[2] > 1e-6)
-
-
-def projected_area(element):
-    """Horizontal projection of the faces that look upwards. [m2]"""
-    return sum(abs(polygon_area(face.points @ face.axes.T)) * face.normal[2] for face in element.solid.faces
-               if face.normal[2] > 1e-6)
+def upper_area(element, projected=False):
+    """Area of the faces that look upwards: of a slab, the surface of roof or floor; or its horizontal projection. [m2]
+    """
+    return sum(abs(polygon_area(face.points @ face.axes.T)) * (face.normal[2] if projected else 1.0)
+               for face in element.solid.faces if face.normal[2] > 1e-6)
 
 
 def _hang_walls(structure, members, load, earlier):
-    """Add the weight [kN/m2] of the outer walls to the columns in them.
-
-    A wall that faces one of the earlier structures without a gap is common to both and counts there.
-    """
+    """Add the weight [kN/m2] of the outer walls to the columns in them. A wall that faces one of the earlier structures
+    without a gap is common to both and counts there."""
     columns = {column.name: column for column in members if column.kind == "column"}
     added = dict.fromkeys(columns, 0.0)
     for storey, plan in structure.plans.items():

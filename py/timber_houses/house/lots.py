@@ -15,13 +15,8 @@ MAJOR, ECCENTRICITY = 6_378_137.0, 0.081_819_190_842_6
 
 def read_lots(path):
     """Table {name: Table of a lot} of a file; houses are looked for beside it. Raises HouseError (file:line)."""
-    return _of_table(path) if path.suffix.lower() == ".csv" else _of_map(path)
-
-
-def _named(entries):
-    """Table of [(name, Table of a lot)]. Raises HouseError for a name that occurs twice."""
     lots = Table()
-    for name, entry in entries:
+    for name, entry in _of_table(path) if path.suffix.lower() == ".csv" else _of_map(path):
         if name in lots:
             raise HouseError(f"{entry.where}: lot {name}: the name stands at {lots[name].where} already")
         lots[name], lots.entries[name] = entry, entry.where
@@ -29,26 +24,25 @@ def _named(entries):
 
 
 def _of_table(path):
-    """A row for each lot, a head with `lot` and KEYS; a unit in brackets is ignored."""
+    """[(name, Table)]: a row for each lot, a head with `lot` and KEYS; a unit in brackets is ignored."""
     rows = csv.reader(text_of(path).removeprefix("\ufeff").splitlines())
     heads = [head.partition("[")[0].strip() for head in next(rows, [])]
     missing = [key for key in ("lot", "house", "x", "y") if key not in heads]
     if missing:
         raise HouseError(f"{path.name}:1: no column {missing[0]}; a table of lots has lot, {', '.join(KEYS)}")
-    return _named(_row(dict(zip(heads, map(str.strip, row))), f"{path.name}:{number}")
-                  for number, row in enumerate(rows, 2) if any(map(str.strip, row)))
-
-
-def _row(cells, where):
-    """(name, Table) of a row."""
-    values = {key: text if key == "house" else parse_value(text, where)
-              for key, text in cells.items() if text and key != "lot"}
-    return cells["lot"], Table(values, where, dict.fromkeys(values, where))
+    lots = []
+    for number, row in enumerate(rows, 2):
+        cells, where = dict(zip(heads, map(str.strip, row))), f"{path.name}:{number}"
+        values = {key: text if key == "house" else parse_value(text, where)
+                  for key, text in cells.items() if text and key != "lot"}
+        if any(map(str.strip, row)):
+            lots.append((cells["lot"], Table(values, where, dict.fromkeys(values, where))))
+    return lots
 
 
 def _of_map(path):
-    """A feature for each lot: a point, or a polygon with the house in the mean of its corners; in its properties `name`
-    and KEYS but x and y; others are ignored."""
+    """[(name, Table)]: a feature for each lot: a point, or a polygon with the house in the mean of its corners; in its
+    properties `name` and KEYS but x and y; others are ignored."""
     try:
         features = json.loads(text_of(path))["features"]
         places = [_place(feature["geometry"]) for feature in features]
@@ -59,14 +53,12 @@ def _of_map(path):
     if not all(abs(longitude) <= 180 and abs(latitude) < 90 for longitude, latitude in places):
         raise HouseError(f"{path.name}: coordinates must be longitude and latitude in degrees (WGS 84)")
     origin = [sum(values) / len(places) for values in zip(*places)]
-    return _named((name, _feature(feature["properties"], _metres(place, origin), f"{path.name}: feature {number}"))
-                  for number, (name, feature, place) in enumerate(zip(names, features, places), 1))
-
-
-def _feature(properties, place, where):
-    values = {key: properties[key] for key in KEYS if properties.get(key) is not None}
-    values |= dict(zip("xy", place))
-    return Table(values, where, dict.fromkeys(values, where))
+    lots = []
+    for number, (name, feature, place) in enumerate(zip(names, features, places), 1):
+        values = {key: feature["properties"][key] for key in KEYS if feature["properties"].get(key) is not None}
+        values |= dict(zip("xy", _metres(place, origin)))
+        lots.append((name, Table(values, where := f"{path.name}: feature {number}", dict.fromkeys(values, where))))
+    return lots
 
 
 def _place(geometry):

@@ -67,16 +67,10 @@ def _strip(structure, layer, kind, name, line, start, end):
     centre = structure.position(across, line["at"])
     span = {line["along"]: (start, end), across: (centre - width / 2, centre + width / 2)}
     low, high = ([span["x"][i], span["y"][i], z] for i, z in ((0, layer.z0), (1, layer.z1)))
+    plan = structure.plans.get(max(layer.storey, 1))  # of the storey below or above
     return structure.element(kind, name, box(low, high), layer.table, line["where"], fixed=layer.table["fixed"],
-                             storey=layer.storey, side=_strip_sides(structure, layer, line, start, end),
-                             section=(width, layer.z1 - layer.z0))
-
-
-def _strip_sides(structure, layer, line, start, end):
-    """Sides of the house of a strip, below or above a storey."""
-    plan = structure.plans.get(max(layer.storey, 1))
-    at = structure.position(ACROSS[line["along"]], line["at"])
-    return plan.sides(line["along"], at, start, end) if plan else frozenset()
+                             storey=layer.storey, section=(width, layer.z1 - layer.z0),
+                             side=plan.sides(line["along"], centre, start, end) if plan else frozenset())
 
 
 def lay_floors(structure, layer):
@@ -93,12 +87,12 @@ def lay_floors(structure, layer):
 
 def lay_columns(structure, layer):
     """Square columns of one storey on their nodes, in the order of the column groups."""
-    elements = []
+    elements, plan = [], structure.plans[layer.storey]
     for (x, y), (section, where) in column_plan(structure, layer.storey).items():
         centre = np.array([structure.position("x", x), structure.position("y", y)])
         vertices = box([*(centre - section / 2), layer.z0], [*(centre + section / 2), layer.z1])
         elements.append(structure.element("column", f"column{layer.storey}.x{x:g}y{y:g}", vertices, layer.table, where,
-                                          storey=layer.storey, side=structure.column_sides(layer.storey, x, y),
+                                          storey=layer.storey, side=plan.sides_at(*centre.tolist()),
                                           section=(section, section)))
     return elements
 
@@ -132,19 +126,15 @@ def require_column(on_line, node, place):
 
 
 def _group_nodes(structure, group):
-    """Nodes (x, y) of one column group."""
     if group["at"] is not None:
         nodes = [tuple(pair) for pair in group["at"]]
     elif group["grid"] is not None:
         nodes = [(x, y) for y in group["grid"]["y"] for x in group["grid"]["x"]]
     else:
-        nodes = [node for line in _single_lines(structure, group["lines"]) for node in _line_nodes(line)]
+        nodes = []  # every whole node along the lines, both ends included
+        for line in _single_lines(structure, group["lines"]):
+            along = np.arange(np.ceil(line["from"]), np.floor(line["to"]) + 1).tolist()
+            nodes += [(n, line["at"]) if line["along"] == "x" else (line["at"], n) for n in along]
     for axis, values in zip("xy", zip(*nodes)):
         structure.check_nodes(axis, values, group.where)
     return nodes
-
-
-def _line_nodes(line):
-    """Every whole node along a line, both ends included."""
-    along = np.arange(np.ceil(line["from"]), np.floor(line["to"]) + 1).tolist()
-    return [(n, line["at"]) if line["along"] == "x" else (line["at"], n) for n in along]

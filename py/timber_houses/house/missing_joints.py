@@ -3,14 +3,15 @@
 import warnings
 from collections import defaultdict
 
+import numpy as np
+
 from .bars import OBLIQUE
 from .geometry import contact_polygon, facing_polygon, separation
 from .joint_values import kinds_of
 from .joints import near_pairs
 from .layout import FRAME
 
-NEAR = 0.02
-"""Distance up to which two faces may be meant to touch. [m]"""
+NEAR = 0.02  # distance up to which two faces may be meant to touch. [m]
 TOUCHING = 1e-7  # [m]
 SHOWN = 3
 
@@ -20,8 +21,7 @@ def warn_of_missing_joints(model, data):
 
     Left out: members without a rule that bear on a foundation with less than half of their length, as columns on stones
     do; and pairs with a joint to a common member, unless one of the two ends at the other's face and no common member
-    lies between them.
-    """
+    lies between them."""
     members = [e for e in model.elements if e.group == FRAME and e.kind != "snow"]
     if not members:
         return
@@ -44,32 +44,23 @@ def _may_miss(a, b, common, ruled, min_area):
     contact = contact_polygon(a.solid, b.solid, NEAR) or facing_polygon(a.solid, b.solid, NEAR)
     if not contact or contact[2] < min_area:
         return False
-    if frozenset((a.kind, b.kind)) not in ruled and any(
-            one.kind == "foundation" and _bears(other, contact[0]) for one, other in ((a, b), (b, a))):
-        return False
+    for one, other in ((a, b), (b, a)) if frozenset((a.kind, b.kind)) not in ruled else ():
+        if one.kind == "foundation" and np.ptp(contact[0] @ _along(other)) < _along(other) @ _along(other) / 2:
+            return False
     middle = contact[0].mean(0) + max(0.0, separation(a.solid, b.solid)) / 2 * contact[1]
     return not common or ((_ends_at(a, contact[1]) or _ends_at(b, contact[1]))
-                          and not any(_contains(element.solid, middle) for element in common))
+                          and not any(all(face.normal @ middle < face.offset - TOUCHING for face in element.solid.faces)
+                                      for element in common))
+
+
+def _along(element):
+    """(3,) from end to end of a member; zero for a plate, which has no ends. [m]"""
+    return np.zeros(3) if element.axis is None else element.axis[1] - element.axis[0]
 
 
 def _ends_at(element, normal):
     """Whether a face with this normal is an end of a member."""
-    if element.axis is None:
-        return False
-    along = element.axis[1] - element.axis[0]
-    return abs(normal @ along) > OBLIQUE * (along @ along)**0.5
-
-
-def _bears(element, polygon):
-    """Whether a contact extends over less than half of a member's length."""
-    if element.axis is None:
-        return False
-    along = element.axis[1] - element.axis[0]
-    return (polygon @ along).max() - (polygon @ along).min() < along @ along / 2
-
-
-def _contains(solid, point):
-    return all(face.normal @ point < face.offset - TOUCHING for face in solid.faces)
+    return abs(normal @ _along(element)) > OBLIQUE * np.linalg.norm(_along(element))
 
 
 def _line(a, b, ruled):

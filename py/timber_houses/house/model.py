@@ -92,8 +92,7 @@ class JointSpec:
     """Joint of elements `a` and `b`: springs at the corners of their contact area (paper, 2.4), or one.
 
     kind: 'column_beam', 'brace_beam', 'brace_column', 'floor_beam', 'roof_beam', 'roof_roof', ...; label: name of a
-    joint that is not named after its members, of a wall
-    """
+    joint that is not named after its members, of a wall"""
 
     a: str
     b: str
@@ -134,6 +133,10 @@ class JointSpec:
     def centre(self):
         """(3,) mean of the spring points [m]."""
         return self.points.mean(0)
+
+    def whole(self, value):
+        """Of the joint as a whole, from a value of it or of each of its springs."""
+        return value * (1 if self.per == "joint" else len(self.points))
 
 
 @dataclass(eq=False)

@@ -16,14 +16,12 @@ M over its height H:
     mu = gamma_u / gamma_v                 Pa = min(My / H, 0.2 sqrt(2 mu - 1) Mu / H, K / 150)
 
 Source: allowable stress design of post-and-beam houses (Japan Housing and Wood Technology Center), 3.3, detailed
-calculation of walls with boards; the formulas follow from the mechanics above.
-"""
+calculation of walls with boards; the formulas follow from the mechanics above."""
 from dataclasses import dataclass
 
 import numpy as np
 
-CODE_DRIFT = 1 / 150
-"""Drift up to which the allowable shear is within the stiffness. [rad]"""
+CODE_DRIFT = 1 / 150  # drift up to which the allowable shear is within the stiffness. [rad]
 
 
 @dataclass(frozen=True)
@@ -56,7 +54,12 @@ class NailedWall:
 def nailed_wall(nails):
     """NailedWall of the table `nails` of a wall type."""
     board = nails["board"]
-    arrays = [_array(_positions(nails, height)) for height in board["heights"]]
+    arrays = []
+    for x, y in (_positions(nails, height).T for height in board["heights"]):
+        ix, iy = (y**2).sum(), (x**2).sum()
+        of_board = ix * iy / (ix + iy)
+        slips = np.hypot(y / ix, x / iy) * of_board
+        arrays.append((of_board, of_board / slips.max(), slips.sum()))
     ixy, zxy, zpxy = np.sum(arrays, axis=0)
     height = sum(board["heights"]) if nails["height"] is None else nails["height"]
     shear = board["shear_modulus"] * board["thickness"] * board["width"] * sum(board["heights"])
@@ -80,11 +83,3 @@ def _positions(nails, height):
 def _line(half, spacing):
     """Nails at equal distances, about the spacing, from -half to half."""
     return np.linspace(-half, half, max(1, round(2 * half / spacing)) + 1)
-
-
-def _array(points):
-    """(Ixy, Zxy, Zpxy) of the nails of a board."""
-    ix, iy = (points[:, 1] ** 2).sum(), (points[:, 0] ** 2).sum()
-    ixy = ix * iy / (ix + iy)
-    slips = np.hypot(points[:, 1] / ix, points[:, 0] / iy) * ixy
-    return ixy, ixy / slips.max(), slips.sum()

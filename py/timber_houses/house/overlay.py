@@ -3,7 +3,7 @@
 import re
 
 from ..base.input_file import shown
-from .bay_name import BayName
+from .bays import BayName
 from .description import checked, house_path
 from .errors import HouseError
 from .limits import MAX_DEPTH
@@ -12,8 +12,7 @@ from .parser import Items, Table, parse_value, plain
 from .schema import NAME
 
 _STEP = re.compile(rf"({NAME})((?:\[\d{{1,6}}\])*)")
-MIN_FACTOR, MAX_FACTOR = 1e-3, 1e3
-"""Range of the factor on the joints' strength."""
+MIN_FACTOR, MAX_FACTOR = 1e-3, 1e3  # range of the factor on the joints' strength
 
 
 def changed_house(name_or_path, settings=(), braces=(), strength=1.0, where="{}".format):
@@ -47,11 +46,13 @@ def changed_house(name_or_path, settings=(), braces=(), strength=1.0, where="{}"
     for name in braces:
         _fill(data, name, where("braces"))
     checked(data, path)
-    _strengthen(data, strength, where("strength"))
+    if not MIN_FACTOR <= strength <= MAX_FACTOR:
+        raise HouseError(f"{where('strength')}: {strength:g}: the factor on the joints' strength must be in"
+                         f" [{MIN_FACTOR:g}, {MAX_FACTOR:g}]")
+    for table in (*data["joint_types"].values(), *data["joints"].values()):
+        if table.get("strength") is not None:
+            table["strength"] *= strength
     return plain(data)
-
-
-# --- single keys ------------------------------------------------------------------------------------------------------
 
 
 def _set(data, text, where):
@@ -69,10 +70,7 @@ def _set(data, text, where):
         parsed = added(present, parsed, where, key)
     else:
         note_replaced(present, parsed, where, key)
-    if is_entry:
-        node.entries[last] = where
-    else:
-        node.entries[last:last + 1] = [where]
+    node.entries[last if is_entry else slice(last, last + 1)] = where if is_entry else [where]
     node[last] = parsed
 
 
@@ -102,17 +100,16 @@ def _has_entry(node, step, key, where):
     return False
 
 
-# --- braces, walls and joints -----------------------------------------------------------------------------------------
-
-
 def _fill(data, text, where):
     """Add the brace or wall of that name."""
     bay = BayName.read(text)
     if bay is None:
         raise HouseError(f"{where}: {shown(text)}: write a brace like main.brace1.EW.y0.3-4 or a wall like"
                          " main.wall2.NS.x8.6-7.plywood")
-    table, place = _structure(data, bay.structure, text, where), {"along": bay.along, "at": bay.at,
-                                                                  "storeys": bay.storey}
+    if bay.structure not in data["structures"]:
+        raise HouseError(f"{where}: {text}: unknown structure '{bay.structure}'; known:"
+                         f" {', '.join(data['structures'])}")
+    table, place = data["structures"][bay.structure], {"along": bay.along, "at": bay.at, "storeys": bay.storey}
     if bay.type:
         _append(table.setdefault("walls", Items((), where)),
                 {**place, "from": bay.start, "to": bay.end, "type": bay.type}, where)
@@ -122,21 +119,6 @@ def _fill(data, text, where):
         _append(braces.setdefault("lines", Items((), where)), {**place, "runs": runs}, where)
 
 
-def _structure(data, structure, name, where):
-    if structure not in data["structures"]:
-        raise HouseError(f"{where}: {name}: unknown structure '{structure}'; known: {', '.join(data['structures'])}")
-    return data["structures"][structure]
-
-
 def _append(lines, line, where):
     lines.append(Table(line, where, dict.fromkeys(line, where)))
     lines.entries.append(where)
-
-
-def _strengthen(data, factor, where):
-    if not MIN_FACTOR <= factor <= MAX_FACTOR:
-        raise HouseError(f"{where}: {factor:g}: the factor on the joints' strength must be in [{MIN_FACTOR:g},"
-                         f" {MAX_FACTOR:g}]")
-    for table in (*data["joint_types"].values(), *data["joints"].values()):
-        if table.get("strength") is not None:
-            table["strength"] *= factor

@@ -44,7 +44,10 @@ def parse_table(text, file, max_nodes=MAX_NODES):
         parser = _Parser(text, file, None, max_nodes)
         value = parser.value()
     except yaml.YAMLError as problem:
-        raise HouseError(_syntax_message(problem, text, file)) from None
+        mark = getattr(problem, "problem_mark", None)
+        line = mark.line + 1 if mark else text.count("\n", 0, getattr(problem, "position", 0)) + 1
+        reason = getattr(problem, "problem", None) or str(problem).splitlines()[0]
+        raise HouseError(f"{file}:{line}: not valid YAML: {reason}") from None
     if not isinstance(value, Table):
         raise HouseError(f"{file}:1: a house file is a table of keys, e.g. 'name: my house'")
     return value, parser.values
@@ -56,13 +59,6 @@ def parse_value(text, where):
         return _Parser(text, "", where, MAX_NODES).value()
     except yaml.YAMLError:
         raise HouseError(f"{where}: {shown(text)} is not a value; give a number, a word or [a, list]") from None
-
-
-def _syntax_message(problem, text, file):
-    mark = getattr(problem, "problem_mark", None)
-    line = mark.line + 1 if mark else text.count("\n", 0, getattr(problem, "position", 0)) + 1
-    reason = getattr(problem, "problem", None) or str(problem).splitlines()[0]
-    return f"{file}:{line}: not valid YAML: {reason}"
 
 
 class _Parser(yaml.SafeLoader):
@@ -144,7 +140,6 @@ class _Parser(yaml.SafeLoader):
         return table
 
     def _scalar(self, node):
-        """None, bool, int, float or str."""
         kind, text = node.tag.removeprefix(TAG), node.value
         if kind in ("null", "str"):
             return None if kind == "null" else text
@@ -202,7 +197,6 @@ _Writer.add_implicit_resolver(TAG + "float", _EXPONENT, list("-+.0123456789"))
 
 
 def plain(value):
-    """Tables and lists as dict and list."""
     if isinstance(value, dict):
         return {key: plain(entry) for key, entry in value.items()}
     return [plain(entry) for entry in value] if isinstance(value, list) else value

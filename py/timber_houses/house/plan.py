@@ -2,8 +2,7 @@
 """Plan of a storey of any shape: cells between grid lines, with or without floor. Lengths in m, as laid: upright.
 
 A cell has floor if a slab above the storey (floor or roof) covers it, without eaves, and columns of the storey stand on
-its south-west, south-east, north-west and north-east: roofs and floors that project beyond the columns do not count.
-"""
+its south-west, south-east, north-west and north-east: roofs and floors that project beyond the columns do not count."""
 from dataclasses import dataclass
 from itertools import product
 
@@ -11,8 +10,7 @@ import numpy as np
 
 from .structure import ENDS
 
-ROUNDING = 1e-6
-"""Of positions. [m]"""
+ROUNDING = 1e-6  # of positions. [m]
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,21 +52,17 @@ class FloorPlan:
         return all(0 <= k < size for k, size in zip(cell, self.floor.shape)) and bool(self.floor[tuple(cell)])
 
     def sides(self, along, at, start, end):
-        """Side of the house of a stretch of a line, whose outer wall it is: floor on one hand only, all along.
-
-        along: 'x' or 'y'; at: position of the line; start, end: of the stretch. Empty inside and off the floor.
-        """
+        """Side of the house of a stretch of a line, whose outer wall it is: floor on one hand only, all along. along:
+        'x' or 'y'; at: position of the line; start, end: of the stretch. Empty inside and off the floor."""
         axis = "xy".index(along)
         edges = np.clip(self.edges[axis], start, end)
-        hands = {self._floors(axis, at, middle) for middle in (edges[:-1] + edges[1:])[np.diff(edges) > ROUNDING] / 2}
+        hands = set()  # (floor on the lower hand, on the higher) of the middles of the parts between cells
+        for middle in (edges[:-1] + edges[1:])[np.diff(edges) > ROUNDING] / 2:
+            points = [(middle, at + aside)[::1 if axis == 0 else -1] for aside in (-2 * ROUNDING, 2 * ROUNDING)]
+            hands.add(tuple(self.has_floor(point) for point in points))
         low, high = ENDS["yx"[axis]]
         return {frozenset({(False, True)}): frozenset({low}), frozenset({(True, False)}): frozenset({high})
                 }.get(frozenset(hands), frozenset())
-
-    def _floors(self, axis, at, middle):
-        """(floor on the lower hand, on the higher) of a point of a line."""
-        points = [(middle, at + aside)[::1 if axis == 0 else -1] for aside in (-2 * ROUNDING, 2 * ROUNDING)]
-        return tuple(self.has_floor(point) for point in points)
 
     def sides_at(self, x, y):
         """Sides of the house whose outer walls meet at a point."""
@@ -86,10 +80,11 @@ class FloorPlan:
 def floor_plan(columns, slabs):
     """FloorPlan of a storey. columns: {(x, y): name}; slabs: [(low, high) corners (2,)] of those above it"""
     places = np.array(list(columns)).reshape(-1, 2)
-    edges = tuple(_distinct([*places[:, axis], *(corner[axis] for slab in slabs for corner in slab)])
-                  for axis in (0, 1))
-    floor = np.array([[_carried((x, y), places) and _covered((x, y), slabs) for y in _middles(edges[1])]
-                      for x in _middles(edges[0])], bool)
+    found = [np.sort([*places[:, axis], *(corner[axis] for slab in slabs for corner in slab)]) for axis in (0, 1)]
+    edges = tuple(each[np.diff(each, prepend=-np.inf) > ROUNDING] for each in found)
+    middles = [(e[:-1] + e[1:]) / 2 for e in edges]
+    floor = np.array([[_carried((x, y), places) and _covered((x, y), slabs) for y in middles[1]] for x in middles[0]],
+                     bool)
     return FloorPlan(edges, floor.reshape([max(0, len(e) - 1) for e in edges]), columns)
 
 
@@ -114,12 +109,3 @@ def _carried(point, columns):
     """Whether columns stand in all four quadrants about a point."""
     east, north = (columns >= point).T
     return all((ew & ns).any() for ew in (east, ~east) for ns in (north, ~north))
-
-
-def _distinct(values):
-    values = np.sort(values)
-    return values[np.diff(values, prepend=-np.inf) > ROUNDING]
-
-
-def _middles(edges):
-    return (edges[:-1] + edges[1:]) / 2

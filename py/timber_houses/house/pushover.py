@@ -3,8 +3,7 @@
 the natural periods with the secant stiffness of the curves at a drift.
 
 Walls have their envelopes at the level of the house; braces pull with the springs of both ends until the weaker one
-breaks and bear nothing in compression. Column ends and P-delta are left out.
-"""
+breaks and bear nothing in compression. Column ends and P-delta are left out."""
 from collections import defaultdict
 
 import numpy as np
@@ -14,8 +13,7 @@ from ..base.joint_kinds import WALL_COLUMN
 from .loads import bay_length
 from .weight import level_masses
 
-SHARES = 2.0
-"""Halves of a wall: each spring stands for one. [-] (walls.py, SHARE)"""
+SHARES = 2.0  # halves of a wall: each spring stands for one. [-] (walls.py, SHARE)
 DIRECTIONS = ("ew", "ns")
 
 
@@ -26,25 +24,17 @@ def pushover(model, group):
     for joint in model.joints:
         if joint.group == group and joint.kind == WALL_COLUMN and not joint.broken:
             low, high = model.element(joint.a), model.element(joint.b)
-            curves[low.storey, _direction(low, high)].append(_wall(joint, low, high))
+            axis = int(np.argmax(np.abs(high.solid.centroid - low.solid.centroid)[:2]))
+            # the spring between its columns: stretch = length x drift, force = half of the shear x height / length
+            length, height = bay_length(low, high), float(np.ptp(low.vertices[:, 2]))
+            stretches, forces = np.transpose([(0.0, 0.0), *joint.envelope])
+            curves[low.storey, DIRECTIONS[axis]].append((stretches / length, SHARES * forces * length / height))
     for brace in model.of_kind("brace", group=group):
         if (curve := _brace(model, brace)) is not None:
             along = np.ptp(brace.vertices, axis=0)
             curves[brace.storey, DIRECTIONS[int(along[1] > along[0])]].append(curve)
     return {(storey, direction): _sum(curves[storey, direction])
             for storey in model.storey_levels[group] for direction in DIRECTIONS}
-
-
-def _direction(low, high):
-    return DIRECTIONS[int(np.argmax(np.abs(high.solid.centroid - low.solid.centroid)[:2]))]
-
-
-def _wall(joint, low, high):
-    """(drifts, shears [N]) of a sheet. Of the spring between its columns: stretch = length x drift, force = half of the
-    shear x height / length."""
-    length, height = bay_length(low, high), float(np.ptp(low.vertices[:, 2]))
-    stretches, forces = np.transpose([(0.0, 0.0), *joint.envelope])
-    return stretches / length, SHARES * forces * length / height
 
 
 def _brace(model, brace):
@@ -55,7 +45,7 @@ def _brace(model, brace):
             ends[joint.end].append(joint)
     if not all(ends.values()):
         return None
-    stiffness, strength = zip(*((sum(_of_all(j, j.kn) for j in joints), sum(_of_all(j, j.strength) for j in joints))
+    stiffness, strength = zip(*((sum(j.whole(j.kn) for j in joints), sum(j.whole(j.strength) for j in joints))
                                 for joints in ends.values()))
     rise, run = np.ptp(brace.vertices[:, 2]), np.ptp(brace.vertices[:, :2], axis=0).max()
     slope, force = run / np.hypot(rise, run), min(strength)
@@ -63,11 +53,6 @@ def _brace(model, brace):
         return None
     drift = force * sum(1 / k for k in stiffness) / (slope * rise)
     return np.array([0.0, drift, drift * (1 + 1e-6)]), np.array([0.0, force * slope, 0.0])
-
-
-def _of_all(joint, value):
-    """Of a joint as a whole, from a value of it or of each of its springs."""
-    return value * (1 if joint.per == "joint" else len(joint.points))
 
 
 def _sum(curves):
@@ -84,8 +69,7 @@ def secant_periods(model, group, curves, drift):
 
     Stiffness of a storey: shear / (drift x height). Beside the walls and braces of `pushover`, columns of width b that
     rock under the weight W above bear W (b / height - drift): their resistance less P-delta. None where columns bear
-    more than walls and braces in a storey: how storeys share the drift decides there.
-    """
+    more than walls and braces in a storey: how storeys share the drift decides there."""
     storeys, masses = sorted(model.storey_levels[group]), level_masses(model, group)
     heights = np.array([np.subtract(*reversed(model.storey_levels[group][storey])) for storey in storeys])
     weights = 1000 * weight_of(np.cumsum(masses[::-1])[::-1])  # [N]
@@ -97,13 +81,11 @@ def secant_periods(model, group, curves, drift):
                            if column.storey == storey] or [0.0]) for storey in storeys]
         rocking = weights * (widths / heights - drift)
         stiffness = (shears + rocking) / (drift * heights)  # [N/m]
-        periods[direction] = _lowest_period(stiffness, masses) if all(shears > abs(rocking)) else None
+        periods[direction] = None
+        if not all(shears > abs(rocking)):
+            continue
+        above = np.append(stiffness[1:], 0.0)  # springs from the ground up: K x = omega^2 M x, made symmetric
+        matrix = np.diag(stiffness + above) - np.diag(above[:-1], 1) - np.diag(above[:-1], -1)
+        omega2 = np.linalg.eigvalsh(matrix / np.sqrt(np.outer(masses, masses)))
+        periods[direction] = round(float(2 * np.pi / np.sqrt(omega2[0])), 3)
     return periods
-
-
-def _lowest_period(stiffness, masses):
-    """Of a chain of springs from the ground up: K x = omega^2 M x, made symmetric. [N/m], [kg] -> [s]"""
-    above = np.append(stiffness[1:], 0.0)
-    matrix = np.diag(stiffness + above) - np.diag(above[:-1], 1) - np.diag(above[:-1], -1)
-    omega2 = np.linalg.eigvalsh(matrix / np.sqrt(np.outer(masses, masses)))
-    return round(float(2 * np.pi / np.sqrt(omega2[0])), 3)

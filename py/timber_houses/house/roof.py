@@ -9,8 +9,7 @@ A boxed slab is hollow: it has the mass of its thickness over its sloped area. G
 tied at the level of the plates. Hip (paper, 3.4): hips run at 45 degrees in plan; each slab is the part of the outline
 nearest to its own eave. The long slopes are hexahedra; the hip ends, whose three corners are cut off, octahedra. A
 square plan gives a pyramid. Mono-pitch: one slab, on the plates of its eave and on posts over those of the wall
-opposite, which belong to its joints.
-"""
+opposite, which belong to its joints."""
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -19,10 +18,8 @@ from .errors import HouseError
 from .geometry import Polyhedron, box
 from .structure import ACROSS, ENDS, OUTWARD
 
-SEAT = 0.05
-"""Least reach of the soffit beyond the grid line: about the inner half of a wall plate. [m]"""
-SPACING = 0.91
-"""Of the tie beams of a gable roof along its ridge and of the posts of a mono-pitch roof, at most. [m]"""
+SEAT = 0.05  # least reach of the soffit beyond the grid line: about the inner half of a wall plate. [m]
+SPACING = 0.91  # of the tie beams of a gable roof along its ridge and of the posts of a mono-pitch roof, at most. [m]
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,7 +68,6 @@ class Plan:
                 *self.outline(side)]
 
     def edge(self, side):
-        """Vertical plane above the eave of `side`."""
         d, e = self.distance(side)
         return (*d, 0.0), e
 
@@ -95,7 +91,6 @@ class Plan:
 
 
 def opposite(plane):
-    """The other side of a plane."""
     normal, offset = plane
     return tuple(-v for v in normal), -offset
 
@@ -160,19 +155,17 @@ def lay_snow(structure, layer, depth, material):
 def carry_roofs(structure, elements, joints):
     """JointSpecs of posts; changes those of ridges to tie beams: the walls bear the roofs' weight and no thrust."""
     posts = []
-    for layer in structure.layers:
-        if layer.kind == "roof" and layer.table["type"] == "gable":
+    for layer in (layer for layer in structure.layers if layer.kind == "roof"):
+        if layer.table["type"] == "gable":
             _tie_slabs(structure, layer, joints)
-        elif layer.kind == "roof" and layer.table["type"] == "mono":
+        elif layer.table["type"] == "mono":
             posts += _posts(structure, layer, elements, joints)
     return posts
 
 
 def _tie_slabs(structure, layer, joints):
     """Move half of a ridge joint's springs down to tie beams at the level of the plates, which take the slabs' thrust.
-
-    The ridge and each tie beam have the stiffness and strength of one fitting.
-    """
+    The ridge and each tie beam have the stiffness and strength of one fitting."""
     slabs = {f"{structure.name}.{slab_name(structure, layer, 'roof', side)}"
              for side in pitched_plan(structure, layer).sides}
     for joint in joints:

@@ -2,12 +2,10 @@
 """Published parameter sets of the law SAWS (Folz and Filiatrault 2001) -> envelope and cycles of a wall type.
 
 The backbone (F0 + R1 S0 d) (1 - exp(-S0 d / F0)) up to DU, then a line of slope R2 S0, in points: with x = S0 d / F0
-they lie at equal steps of exp(-x / 2), by which the lines between them miss the curve by the same force everywhere.
-"""
+they lie at equal steps of exp(-x / 2), by which the lines between them miss the curve by the same force everywhere."""
 import math
 
-POINTS = 256
-"""Up to DU: the lines miss the curve by at most F0 / 65536."""
+POINTS = 256  # up to DU: the lines miss the curve by at most F0 / 65536
 
 
 def _force(table, d):

@@ -2,8 +2,7 @@
 """Schema checker with one-line errors: file and line, key, problem, admissible range, nearest known key.
 
 Each part of a schema has `default` (REQUIRED: must be given) and `check(value, where, name)`, which returns the value
-with defaults filled in. `where`: "file:line"; `name`: path of the key.
-"""
+with defaults filled in. `where`: "file:line"; `name`: path of the key."""
 import math
 import re
 from dataclasses import dataclass

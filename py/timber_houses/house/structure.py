@@ -13,8 +13,7 @@ from .model import Element
 ACROSS = {"x": "y", "y": "x"}
 ENDS = {"x": ("west", "east"), "y": ("south", "north")}
 """Sides of a house at the lower and at the higher end of an axis."""
-OUTWARD = {"west": (-1, 0), "east": (1, 0), "south": (0, -1), "north": (0, 1)}
-"""Horizontal unit vectors."""
+OUTWARD = {"west": (-1, 0), "east": (1, 0), "south": (0, -1), "north": (0, 1)}  # horizontal unit vectors
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,10 +28,8 @@ class Layer:
 
 
 class Structure:
-    """Grid, layers and {storey: its layer of columns}; makes elements with its name and source line.
-
-    grid: {'x': positions [m] of the nodes in the world frame, 'y': ...}; a node may be fractional, between two of them
-    """
+    """Grid, layers and {storey: its layer of columns}; makes elements with its name and source line. grid: {'x':
+    positions [m] of the nodes in the world frame, 'y': ...}; a node may be fractional, between two of them"""
 
     def __init__(self, name, table, materials, others):
         self.name, self.table, self.materials = name, table, materials
@@ -51,9 +48,7 @@ class Structure:
 
     def area(self, area=None, others=(), beyond=0.0):
         """(low, high) corners (2,) [m] of a rectangle of grid nodes (None: all), extended by margin and `beyond` [m].
-
-        An edge shared with one of the `others` (areas of the same layer) is not extended.
-        """
+        An edge shared with one of the `others` (areas of the same layer) is not extended."""
         nodes = self._span(area)
         others = [self._span(other) for other in others]
         out = self.table["margin"] + beyond
@@ -78,10 +73,6 @@ class Structure:
         """Side of the house of a stretch of a grid line between two nodes in a storey; empty inside the house."""
         return self.plans[storey].sides(along, self.position(ACROSS[along], at), *(
             self.position(along, node) for node in sorted((start, end))))
-
-    def column_sides(self, storey, x, y):
-        """Sides of the house whose outer walls meet at a node in a storey."""
-        return self.plans[storey].sides_at(self.position("x", x), self.position("y", y))
 
     def check_nodes(self, axis, nodes, where):
         """HouseError when a node lies outside the grid."""

@@ -12,6 +12,7 @@ from ..base.errors import one_line
 from ..base.input_file import is_file, shown
 from .description import house_path, require_snow_depth
 from .errors import HouseError
+from .geometry import clip_convex
 from .layout import MAX_SNOW, word
 from .limits import MAX_LOTS, MAX_NODES
 from .loader import require_house_file, text_of
@@ -21,8 +22,7 @@ from .plan import ROUNDING
 from .schema import MapOf, Number, Record, fail
 
 LOT_FILES = (".csv", ".geojson", ".json")
-FAR = 20_000.0
-"""Largest coordinate of a lot. [m]"""
+FAR = 20_000.0  # largest coordinate of a lot. [m]
 LOT = Record({"house": word(), "x": Number("m", -FAR, FAR), "y": Number("m", -FAR, FAR),
               "rotation": Number("degrees", -360, 360, default=0.0), "snow": Number("m", 0, MAX_SNOW, default=None)})
 WAVE = Record({"velocity": Number("m/s", 50, 20_000), "direction": Number("degrees", 0, 360)}, default=None)
@@ -33,8 +33,7 @@ TOWN = Record({"name": word(None), "wave": WAVE, "lots": MapOf(LOT, most=MAX_LOT
 class Lot:
     """A house at a place. house: file or name of a shipped house; x, y: of the middle of its plan, east and north [m];
     rotation: of the house, counter-clockwise seen from above [degrees]; snow: depth [m], None: the house file's; where:
-    file and line.
-    """
+    file and line."""
 
     name: str
     house: str
@@ -71,13 +70,9 @@ def parts(model):
     found: list = []
     for hull in sorted(map(ConvexHull, plans), key=lambda hull: -hull.volume):  # volume: in a plane, the area
         corners = hull.points[hull.vertices]
-        if not any(_within(corners, other) for other in found):
+        if not any((corners @ other.equations[:, :2].T + other.equations[:, 2] <= ROUNDING).all() for other in found):
             found.append(hull)
     return [hull.points[hull.vertices] for hull in found]
-
-
-def _within(points, hull):
-    return (points @ hull.equations[:, :2].T + hull.equations[:, 2] <= ROUNDING).all()
 
 
 @dataclass(frozen=True)
@@ -140,17 +135,6 @@ def check_places(placed):
     for k, (lot, outline) in enumerate(outlines):
         for (other, others), (low, high) in zip(outlines[:k], bounds):
             near = (bounds[k][0] < high).all() and (low < bounds[k][1]).all()
-            if near and any(_overlap(a, b) for a, b in product(outline, others)):
+            if near and any(len(clip_convex(a, b)) for a, b in product(outline, others)):
                 raise HouseError(f"{lot.where.removesuffix('.house')}: the house overlaps that of lot {other.name}:"
                                  " move it by x or y, or turn it")
-
-
-def _overlap(a, b):
-    """Whether two convex polygons (n, 2) overlap: no normal of their sides separates them."""
-    for corners in (a, b):
-        sides = np.roll(corners, -1, axis=0) - corners
-        normals = np.column_stack([sides[:, 1], -sides[:, 0]]).T
-        one, two = a @ normals, b @ normals
-        if ((one.max(0) <= two.min(0)) | (two.max(0) <= one.min(0))).any():
-            return False
-    return True

@@ -9,8 +9,7 @@ Weights are those of the sheet that the ministry admits (Howtec, post-and-beam h
 wall. Outer walls weigh per m2 of wall; the sheet converts that to floor area with a house of 6.0 x 16.5 m: 45 m of
 outer walls on 99 m2, 9 % of them windows. Its inner walls of 200 N per m2 of floor assume a storey height of 2.8 m. The
 storeys' own heights scale both. Compared: github.com/you0810jmsdf/pascal-editor, kenchiku-spec, which repeats numbers
-and formulas; of the conversion collaboplaza.com, page 8737.
-"""
+and formulas; of the conversion collaboplaza.com, page 8737."""
 import math
 from dataclasses import dataclass
 
@@ -18,7 +17,7 @@ import numpy as np
 
 from ..base.gravity import weight_of
 from . import diagnosis_tables as tables
-from .loads import projected_area, upper_area
+from .loads import upper_area
 
 
 @dataclass(frozen=True)
@@ -35,22 +34,17 @@ RULES = {"weights_2025": Rule("rule of 1 April 2025", 7.0, 0.5),
          "table_1981": Rule("table of 1981, until 31 March 2025", 5.0, 0.0)}
 """Largest multiplier: Order, Article 46, and Notification 1100 (compared: kenchikuyogo.com 5; fukuicompu.co.jp 7).
 Share: Notification 1100 as of 2025 (compared: stmaki.com, page 2775)."""
-ROOFS = {"metal": 500, "slates": 740, "tiles": 990}
-"""Per m2 of roof surface, with ceiling. [N/m2]"""
+ROOFS = {"metal": 500, "slates": 740, "tiles": 990}  # per m2 of roof surface, with ceiling. [N/m2]
 WALLS = {"boards": 350, "metal": 500, "siding": 600, "mortar": 890, "mud": 1000}
 """Per m2 of outer wall, with frame and lining. [N/m2]"""
-FRAME = 150
-"""Of WALLS, for the frame, which `loads.wall` leaves out. [N/m2] (Order, Article 84)"""
+FRAME = 150  # of WALLS, for the frame, which `loads.wall` leaves out. [N/m2] (Order, Article 84)
 CEILING_INSULATION, FLOOR, LIVE = 100, 610, 600
 """Per m2 of floor; live load of a dwelling, for earthquakes (Order, Article 85). [N/m2]"""
 WALL_INSULATION, WINDOW, WINDOWS = 70, 400, 0.09
 """Per m2 of outer wall, of window [N/m2]; windows over outer walls [-]."""
-INNER_WALL, INNER_HEIGHT = 200, 2.8
-"""Per m2 of floor at this storey height. [N/m2], [m]"""
-PERIMETER, FLOOR_AREA = 2 * (6.0 + 16.5), 6.0 * 16.5
-"""Of the sheet's house. [m], [m2]"""
-UNIT_SHEAR = 0.0196
-"""Allowable shear of 1 cm of a wall of multiplier 1. [kN]"""
+INNER_WALL, INNER_HEIGHT = 200, 2.8  # per m2 of floor at this storey height. [N/m2], [m]
+PERIMETER, FLOOR_AREA = 2 * (6.0 + 16.5), 6.0 * 16.5  # of the sheet's house. [m], [m2]
+UNIT_SHEAR = 0.0196  # allowable shear of 1 cm of a wall of multiplier 1. [kN]
 SNOW_UNIT, SNOW_SHARE = 3.0, 0.35
 """Of snow in regions with much of it, 30 N/m2 per cm [kN/m3], and its share beside an earthquake [-] (Order, Article 86
 and Article 82). Article 46 has no addition for snow; ordinances of such regions do (Hokkaido; compared:
@@ -97,9 +91,7 @@ def carried(storeys, loads):
 
 def wall_load(wall, height):
     """Outer and inner walls of a storey per floor area [kN/m2]. wall: of outer ones [N/m2]; height: of the storey [m]
-
-    The sheet rounds each part up to 10 N/m2.
-    """
+    The sheet rounds each part up to 10 N/m2."""
     whole = PERIMETER * height / FLOOR_AREA
     parts = [(1 - WINDOWS) * whole * wall, (1 - WINDOWS) * whole * WALL_INSULATION, WINDOWS * whole * WINDOW]
     return (sum(10 * _rounded_up(part / 10) for part in parts) + INNER_WALL * height / INNER_HEIGHT) / 1000
@@ -129,9 +121,6 @@ def _rounded_up(value):
     return math.ceil(round(value, 9))
 
 
-# --- of a model -------------------------------------------------------------------------------------------------------
-
-
 @dataclass(frozen=True)
 class Requirement:
     """Of a structure by a rule: its storeys and loads, the class of its roof, kinds of the loads."""
@@ -147,8 +136,7 @@ class Requirement:
         """[Wall quantity [cm per m2 of floor]] of the storeys of a part of these floor areas [m2].
 
         A part of fewer storeys than the house is a house of its own (Notification 1352; compared: fukuicompu.co.jp,
-        manual of ZERO, side parts). None beyond three storeys.
-        """
+        manual of ZERO, side parts). None beyond three storeys."""
         count = next((k for k, area in enumerate(areas) if area <= 0), len(areas))
         if not count or len(self.storeys.areas) > 3:
             return []
@@ -177,17 +165,18 @@ class Requirement:
         return found
 
 
-def requirement(model, group, roof_class):
-    """Requirement of a structure of a HouseModel."""
+def requirement(model, group):
     code, levels = model.code[group], model.storey_levels[group]
     roofs = model.of_kind("roof", group=group)
     areas = tuple(model.plans[group][storey].area for storey in sorted(levels))
     covered = sum(max(0.0, low - high) for low, high in zip(areas, (*areas[1:], 0.0)))
-    surface, cover = (sum(map(area, roofs)) for area in (upper_area, projected_area))
-    top = max((e.vertices[:, 2].max() for e in model.of_kind("beam", group=group)),
-              default=levels[max(levels)][1])
+    surface, cover = (sum(upper_area(roof, projected) for roof in roofs) for projected in (False, True))
+    top = max((e.vertices[:, 2].max() for e in model.of_kind("beam", group=group)), default=levels[max(levels)][1])
     rise = max((roof.vertices[:, 2].max() for roof in roofs), default=top) - top
-    roof, roof_load = _kind(ROOFS, code["roof"], _own_load(roofs, surface))
+    weight = weight_of(sum(roof.mass for roof in roofs))
+    own, own_load = (weight / surface, 1000 * weight / surface) if surface > 0 else (0.0, 0.0)
+    roof_class = next(name for least, name in tables.ROOF_CLASSES if own >= least)
+    roof, roof_load = _kind(ROOFS, code["roof"], own_load)
     wall, wall_load_ = _kind(WALLS, code["wall"], 1000 * (code["wall_load"] or 0.0) + FRAME)
     loads = Loads(roof_load, wall_load_, 1000 * code["solar"], SNOW_UNIT * model.snow_depth * code["snow"],
                   *((surface / covered, cover / covered) if covered > 0 and roofs else (1.0, 1.0)), code["c0"])
@@ -196,15 +185,8 @@ def requirement(model, group, roof_class):
     return Requirement(RULES[code["rule"]], code["rule"], storeys, loads, roof_class, {"roof": roof, "wall": wall})
 
 
-def _own_load(roofs, surface):
-    """Of the roofs as modelled. [N per m2 of surface]"""
-    return 1000 * weight_of(sum(roof.mass for roof in roofs)) / surface if surface > 0 else 0.0
-
-
 def _kind(kinds, chosen, load):
-    """(name, load [N/m2]) of the chosen kind; of none: the lightest kind that weighs as much as the modelled one.
-
-    What is heavier than all of them counts with its own weight.
-    """
+    """(name, load [N/m2]) of the chosen kind; of none: the lightest kind that weighs as much as the modelled one. What
+    is heavier than all of them counts with its own weight."""
     name = chosen or next((name for name, least in kinds.items() if least >= load - 1e-6), "own")
     return name, float(kinds.get(name, load))

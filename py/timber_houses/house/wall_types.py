@@ -11,8 +11,7 @@ from .schema import fail
 
 ALLOWABLE = 1960.0
 """Allowable shear of a wall of multiplier 1. [N per m of wall] (Order of the Building Standard Law, Article 46)"""
-RATED_DRIFT = 1 / 120
-"""Drift at which walls with pinned feet are rated. [rad]"""
+RATED_DRIFT = 1 / 120  # drift at which walls with pinned feet are rated. [rad]
 
 
 @dataclass(frozen=True)
@@ -37,25 +36,18 @@ LEVELS = {"design": Level(((0.01, 1.5),), 1.5, 0.05, 0.103),
 """`design`: just passes the test of its multiplier; `mean`: mean of tested walls (sources: docs/house_files.md)."""
 TAIL = LEVELS["mean"].ultimate_drift / 0.0497
 """Drift without shear over the drift at 80 % of the largest shear, the end of tests: that of `mean`. [-]"""
-SLIP_TOLERANCE = 0.1
-"""Of the nails' Pv = k dv. [-]"""
-ROUNDING = 1e-9
-"""Of shears. [-]"""
-LEAST_SHEAR = 100.0
-"""Of the largest shear of an envelope, below which it is taken to be in kN. [N/m]"""
-LEAST_FRICTION = 1e-3
-"""Of the largest shear: a friction force between zero and this is taken to be in kN. [-]"""
+SLIP_TOLERANCE = 0.1  # of the nails' Pv = k dv. [-]
+ROUNDING = 1e-9  # of shears. [-]
+LEAST_SHEAR = 100.0  # of the largest shear of an envelope, below which it is taken to be in kN. [N/m]
+LEAST_FRICTION = 1e-3  # of the largest shear: a friction force between zero and this is taken to be in kN. [-]
 QUASI_LIMIT = 1.5
 """Largest multiplier of a quasi-bearing wall. [-] (Notification 1100 as of 2025; compared: kenchiku-spec of
 wall_quantity.py)"""
-FORMS = ("envelope", "nails", "saws")
-"""Of a type's shear, in place of that of its multiplier."""
+FORMS = ("envelope", "nails", "saws")  # of a type's shear, in place of that of its multiplier
 FRICTION = 0.1
 """Friction force over the largest shear. [-] (SAWS set of a wall of OpenSees' example; docs/theory.md, walls)"""
-RELOAD_SHARE = 0.65
-"""Share of the slack from which walls reload. [-] (likewise)"""
-RELOAD_TARGET = 1.1
-"""Drift at which reloading meets the envelope, over the largest one so far. [-] (likewise)"""
+RELOAD_SHARE = 0.65  # share of the slack from which walls reload. [-] (likewise)
+RELOAD_TARGET = 1.1  # drift at which reloading meets the envelope, over the largest one so far. [-] (likewise)
 
 
 @dataclass(frozen=True)
@@ -171,14 +163,13 @@ def _check_saws(table, path):
 
 
 def _check_cycles(table, path):
-    if table["friction_share"] is not None:
-        for key in SAWS_STATES:
-            if table[key] is not None:
-                fail(table.at(key), f"{path}.{key}", "does not go with friction_share, the law slip; remove one")
-        if table["residual_share"]:
-            fail(table.at("residual_share"), f"{path}.residual_share",
-                 "does not go with friction_share, the law slip; remove one of them")
-    _check_reloading(table, path)
+    for key in (*SAWS_STATES, "residual_share") if table["friction_share"] is not None else ():
+        if table[key] if key == "residual_share" else table[key] is not None:
+            fail(table.at(key), f"{path}.{key}", "does not go with friction_share, the law slip; remove one of them")
+    if (table["reload_power"] is None) != (table["reload_drift"] is None):
+        fail(table.where, path, "reload_drift and reload_power go together; give both or none")
+    if table["reload_power"] is not None and table["reload_share"] is not None:
+        fail(table.at("reload_share"), f"{path}.reload_share", "does not go with reload_power; remove one of them")
     for level in LEVELS:
         points = envelope(table, level)
         drift, largest = max(points, key=lambda point: point[1])
@@ -196,13 +187,6 @@ def _check_cycles(table, path):
                      f" shear: less than {share:.3g}, got {table['pinched_share']:g}")
 
 
-def _check_reloading(table, path):
-    if (table["reload_power"] is None) != (table["reload_drift"] is None):
-        fail(table.where, path, "reload_drift and reload_power go together; give both or none")
-    if table["reload_power"] is not None and table["reload_share"] is not None:
-        fail(table.at("reload_share"), f"{path}.reload_share", "does not go with reload_power; remove one of them")
-
-
 _CHECKS = {"envelope": _check_envelope, "nails": _check_nails, "saws": _check_saws}
 
 
@@ -217,22 +201,13 @@ def has_rated_walls(data):
 def envelope(table, level):
     """[(drift, shear)] of a wall type from its first point to zero or residual shear. level: of LEVELS, for rated types
     """
-    return _with_residual(_whole_envelope(table, level), table["residual_share"])
-
-
-def _whole_envelope(table, level):
     if table["envelope"] is not None:
-        return _tested(table)
-    if table["nails"] is not None:
-        return _nailed(table)
-    if table["saws"] is not None:
-        return saws.envelope(table["saws"])
-    return _rated(table, LEVELS[level])
-
-
-def _with_residual(points, share):
-    """Points down to this share of the largest shear, which remains beyond the last one. points: the last has none"""
-    residual = share * max(shear for _, shear in points)
+        points = _tested(table)
+    elif table["nails"] is not None:
+        points = _nailed(table)
+    else:
+        points = _rated(table, LEVELS[level]) if table["saws"] is None else saws.envelope(table["saws"])
+    residual = table["residual_share"] * max(shear for _, shear in points)
     kept = list(points)
     while len(kept) > 1 and kept[-2][1] <= residual * (1 + ROUNDING):
         kept.pop()
@@ -261,10 +236,8 @@ def steepest(points):
 
 
 def multiplier(table):
-    """Wall multiplier of a type: its own, else its allowable shear over that of 1. [-]
-
-    Allowable: of nails as in nails.py, else the lesser of the shear at 1/120 and two thirds of the largest one.
-    """
+    """Wall multiplier of a type: its own, else its allowable shear over that of 1. [-] Allowable: of nails as in
+    nails.py, else the lesser of the shear at 1/120 and two thirds of the largest one."""
     if table["multiplier"] is not None:
         return table["multiplier"]
     if table["nails"] is not None:
@@ -278,8 +251,7 @@ def quasi_multiplier(table, panel):
 
     `panel_share` (boards 0.6, wood lath 1) times the multiplier times the share of the height; a lining has a
     `quasi_multiplier`, as it counts as nothing else. (Notification 1100 as of 2025; compared: stmaki.com, page 2775:
-    gypsum 0.9 x 0.6 x 240 cm / 284.4 cm = 0.45)
-    """
+    gypsum 0.9 x 0.6 x 240 cm / 284.4 cm = 0.45)"""
     base = multiplier(table) if table["quasi_multiplier"] is None else table["quasi_multiplier"]
     return min(QUASI_LIMIT, table["panel_share"] * base * panel)
 

@@ -8,8 +8,7 @@ the factor 0.5 by which the rule for fittings of the Japanese code (Notification
 restraint of neighbouring members into account.
 
 Each half is one spring at the middle of the bay, anchored in both members. It acts along one axis: walls have no
-stiffness across their plane.
-"""
+stiffness across their plane."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,13 +21,11 @@ from .model import JointSpec, Sheet, WallCycles
 from .structure import ACROSS
 from .wall_types import cycles, envelope, multiplier, quasi_multiplier, steepest
 
-SHARE = 0.5
-"""Of a wall's shear, between beams and between columns. [-]"""
+SHARE = 0.5  # of a wall's shear, between beams and between columns. [-]
 OPENINGS = {"none": (1.0, 1.0, 1.0), "window": (0.4, 0.3, 0.2), "door": (0.2, 0.15, 0.1)}
 """Strength and stiffness over those without an opening, in bays up to 1 m, up to 2 m, and longer (strength: JBDPA,
 precise diagnosis of 2004; stiffness: assumed to be the same). [-]"""
-REACH = 1e-3
-"""Beyond the ends of the columns, where beam and sill are looked for. [m]"""
+REACH = 1e-3  # beyond the ends of the columns, where beam and sill are looked for. [m]
 
 
 @dataclass(frozen=True)
@@ -78,11 +75,18 @@ def sheathe(structure, elements, data, level):
 
 
 def _bays(structure, line, by_name):
-    """Bays of a line of the house file in all its storeys and positions."""
+    """Bays of a line of the house file in all its storeys and positions, between columns at its first and last node."""
     along, bays = line["along"], []
     for storey in line["storeys"] or structure.storeys:
         for at in line["at"]:
-            nodes = _nodes(structure, line, storey, at)
+            on_line = nodes_on_line(column_plan(structure, storey), along, at)
+            place = f"{structure.name}: walls along {along} at {ACROSS[along]} node {at:g}, storey {storey}"
+            for key in ("from", "to"):
+                require_column(on_line, line[key], f"{line.at(key)}: {place}")
+            if line["from"] >= line["to"]:
+                raise HouseError(f"{line.at('from')}: {structure.name}: a wall runs from {line['from']:g} to"
+                                 f" {line['to']:g}; 'from' must be below 'to'")
+            nodes = [node for node in on_line if line["from"] <= node <= line["to"]]
             places = [(node, at) if along == "x" else (at, node) for node in nodes]
             columns = [by_name[f"{structure.name}.column{storey}.x{x:g}y{y:g}"] for x, y in places]
             start = f"{structure.name}.wall{storey}.{line_name(along, at)}"
@@ -93,22 +97,8 @@ def _bays(structure, line, by_name):
     return bays
 
 
-def _nodes(structure, line, storey, at):
-    """Nodes with columns on a line from its first to its last node, which must be among them."""
-    along = line["along"]
-    on_line = nodes_on_line(column_plan(structure, storey), along, at)
-    place = f"{structure.name}: walls along {along} at {ACROSS[along]} node {at:g}, storey {storey}"
-    for key in ("from", "to"):
-        require_column(on_line, line[key], f"{line.at(key)}: {place}")
-    if line["from"] >= line["to"]:
-        raise HouseError(f"{line.at('from')}: {structure.name}: a wall runs from {line['from']:g} to {line['to']:g};"
-                         " 'from' must be below 'to'")
-    return [node for node in on_line if line["from"] <= node <= line["to"]]
-
-
 def _joints(bay, name, members, data, level):
-    """The two halves of a wall of a type; their labels end in '.plywood.beams', '.plywood.window.beams', ...
-    """
+    """The two halves of a wall of a type; their labels end in '.plywood.beams', '.plywood.window.beams', ..."""
     parts = [bay.opening] * (bay.opening != "none") + ["panel"] * (bay.panel is not None)
     label = ".".join([bay.name, name, *parts])
     low, high = bay.low.solid, bay.high.solid

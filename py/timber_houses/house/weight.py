@@ -18,8 +18,7 @@ def weigh(model):
     storeys                 {structure: {storey: {level_kn, carried_kn}}}: of the level at its top, with half the
     columns and walls below and
                             above; of this level and all higher ones, the weight that drives the storey's shear. Without
-                            snow.
-    """
+                            snow."""
     area = sum(floor_area(model, group, storey) for group, storeys in model.storey_levels.items() for storey in storeys)
     total = weight_of(sum(e.mass for e in model.elements if not e.fixed and e.kind != "snow"))
     return {"total_kn": round(total, 3), "snow_kn": round(weight_of(sum(e.mass for e in model.of_kind("snow"))), 3),
@@ -32,17 +31,18 @@ def floor_area(model, group, storey):
     return model.plans[group][storey].area
 
 
-def level_masses(model, group):
-    """Masses of the levels of a structure from below, with snow. [kg]"""
-    members, levels = [e for e in model.elements if e.group == group and not e.fixed], model.storey_levels[group]
+def level_masses(model, group, without=None):
+    """Masses of the levels of a structure from below. [kg] without: a kind of elements"""
+    members = [e for e in model.elements if e.group == group and not e.fixed and e.kind != without]
+    levels = model.storey_levels[group]
     return [sum(_share(e, storey, max(levels)) * e.mass for e in members) for storey in sorted(levels)]
 
 
 def _storeys(model, group):
-    members = [e for e in model.elements if e.group == group and not e.fixed and e.kind != "snow"]
-    levels, carried, last = {}, 0.0, max(model.storey_levels[group])
-    for storey in sorted(model.storey_levels[group], reverse=True):
-        level = weight_of(sum(_share(e, storey, last) * e.mass for e in members))
+    levels, carried = {}, 0.0
+    masses = zip(sorted(model.storey_levels[group]), level_masses(model, group, "snow"))
+    for storey, mass in reversed(list(masses)):
+        level = weight_of(mass)
         carried += level
         levels[str(storey)] = {"level_kn": round(level, 3), "carried_kn": round(carried, 3)}
     return dict(reversed(levels.items()))

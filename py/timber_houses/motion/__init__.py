@@ -6,11 +6,10 @@ from .measures import (JmaIntensity, Spectrum, arias, displacement, jma_intensit
 from .processing import (highpass, interpolation_error, remove_polynomial, resample, scaled, scaled_to_intensity,
                          scaled_to_pga, shaking_window, trim, turned)
 from .readers import DEFAULT_RECORD, default_motion, read_motion
-from .record import GAL, GroundMotion, RecordError, RecordWarning
+from .record import GAL, GroundMotion, RecordError, RecordWarning, write_csv
 from .request import MotionRequest, add_motion_options, motion_request
 from .sequence import joined, with_then
 from .synthetic import synthetic_motion
-from .writer import write_csv
 
 __all__ = ["DEFAULT_RECORD", "GAL", "GroundMotion", "JmaIntensity", "MotionRequest", "RecordError", "RecordWarning",
            "Spectrum", "add_motion_options", "arias", "constant_note", "default_motion", "displacement", "highpass",

@@ -7,8 +7,7 @@ from .text import UP, Channel, finite, positive, require_step
 
 DIRECTIONS = {"ns": 0.0, "ew": 90.0, "ud": UP}
 ALIASES = {"n-s": "ns", "e-w": "ew", "u-d": "ud", "north": "ns", "east": "ew", "up": "ud", "t": "time"}
-FILLING = ",; \t"
-"""What a spreadsheet adds to short rows."""
+FILLING = ",; \t"  # what a spreadsheet adds to short rows
 SPACING_TOLERANCE = 0.1
 """Largest deviation of a time column from equal spacing, in steps: room for printed rounding, none for a gap."""
 
@@ -48,17 +47,14 @@ def equal_step(path, stated, times):
         raise RecordError(f"{where}: {step:g} s contradicts the rate of sampling; state one of them")
     if times is not None:
         late = np.abs(times - times[0] - step * np.arange(len(times))) / step
-        rounding = min(_rounding(times) / step, 1.0) if stated.keys() & {"dt", "sampling"} else 0.0
+        rounding = 0.0  # half a unit of the last decimal with which they are printed, of at most six
+        if stated.keys() & {"dt", "sampling"}:
+            digits = next((k for k in range(7) if np.abs(times * 10**k - np.round(times * 10**k)).max() < 1e-6), 7)
+            rounding = min(0.5 * 10.0**-digits / step, 1.0)
         if late.max() > max(SPACING_TOLERANCE, rounding + 1e-6):
             raise RecordError(f"{path}: sample {late.argmax()}: times are not {step:g} s apart; equal steps needed, or"
                               " '# dt:' where the times are rounded")
     return step
-
-
-def _rounding(times):
-    """Half a unit of the last decimal with which they are printed, of at most six. [s]"""
-    digits = next((k for k in range(7) if np.abs(times * 10**k - np.round(times * 10**k)).max() < 1e-6), 7)
-    return 0.5 * 10.0**-digits
 
 
 def channels_of(path, names, rows, step, begins=None):

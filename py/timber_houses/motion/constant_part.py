@@ -1,20 +1,16 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Constant part of a motion: the zero error of a sensor, or gravity; it acts like a lean or like another weight.
 
-The mean of a recorded motion is below 0.01 % of the peak as published, below 1 % in parts of a few seconds.
-"""
+The mean of a recorded motion is below 0.01 % of the peak as published, below 1 % in parts of a few seconds."""
 import warnings
 
 import numpy as np
 
 from .record import GAL, STANDARD_GRAVITY, RecordWarning
 
-LARGEST_SHARE = 0.02
-"""Largest mean of a component that needs no warning, as a share of its peak. [-]"""
-VISIBLE = 1e-3
-"""Smaller means, as a share of the largest acceleration of all components, are noise. [-]"""
-ROUNDING = 1e-9
-"""What is left of a constant part that was removed. [m/s2]"""
+LARGEST_SHARE = 0.02  # largest mean of a component that needs no warning, as a share of its peak. [-]
+VISIBLE = 1e-3  # smaller means, as a share of the largest acceleration of all components, are noise. [-]
+ROUNDING = 1e-9  # what is left of a constant part that was removed. [m/s2]
 REMEDY = "--detrend 0 removes it"
 AXES = (("N-S", 1, "a lean"), ("E-W", 0, "a lean"), ("up-down", 2, "a change of weight"))
 """Name, column of the accelerations, effect."""
@@ -22,7 +18,12 @@ AXES = (("N-S", 1, "a lean"), ("E-W", 0, "a lean"), ("up-down", 2, "a change of 
 
 def constant_note(motion, scale=1.0):
     """'constant part of 60 gal N-S (17 % of the peak) acts like a lean of 6.12 %; ...', or ''. scale: factor [-]"""
-    texts = max((list(_texts(samples, scale)) for samples in _pieces(motion)), key=len, default=[])
+    pieces = [motion.acceleration]  # of a sequence those of each motion
+    if motion.parts:
+        ranges = ((round(part.start / motion.dt), round((part.start + part.duration) / motion.dt))
+                  for part in motion.parts)
+        pieces = [motion.acceleration[first:end] for first, end in ranges if end > first]
+    texts = max((list(_texts(samples, scale)) for samples in pieces), key=len, default=[])
     return f"constant part of {', '.join(texts)}; {REMEDY}" if texts else ""
 
 
@@ -34,16 +35,7 @@ def warn_of_constant_part(motion):
     return motion
 
 
-def _pieces(motion):
-    """Accelerations of the motion, or of each motion of a sequence. [(n, 3)]"""
-    if not motion.parts:
-        return [motion.acceleration]
-    ranges = ((round(part.start / motion.dt), round((part.start + part.duration) / motion.dt)) for part in motion.parts)
-    return [motion.acceleration[first:end] for first, end in ranges if end > first]
-
-
 def _texts(samples, scale):
-    """A text for each component with a constant part."""
     means, peaks = scale * samples.mean(axis=0), np.abs(scale * samples).max(axis=0)
     for name, k, effect in AXES:
         if abs(means[k]) > max(LARGEST_SHARE * peaks[k], VISIBLE * peaks.max(), ROUNDING):

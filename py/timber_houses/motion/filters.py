@@ -7,10 +7,8 @@ import scipy  # submodules (27 MB) load on first use; a plain run needs none
 
 from .record import RecordError
 
-MAX_RESULT = 5_000_000
-"""Samples of one component, transients included, in a processed motion: 45 s at 1e-5 s."""
-PADDING = 1.5
-"""Zeros for the transients of a high-pass, before and after the motion, each times its corner. [-]"""
+MAX_RESULT = 5_000_000  # samples of one component, transients included, in a processed motion: 45 s at 1e-5 s
+PADDING = 1.5  # zeros for the transients of a high-pass, before and after the motion, each times its corner. [-]
 
 
 def zero_phase_highpass(acceleration, dt, corner, order):

@@ -5,8 +5,7 @@ K-NET and KiK-net: see knet.py.
 PEER AT2: four header lines, the fourth in several forms, values in g.
 Peknold's El Centro: prose header ("1559 points at equal spacing of 0.02 sec"), values in g.
 JMA CSV: six "KEY = value" lines, a row with the names of the columns, values in gal.
-Plain CSV: '#' comments with "key: value", a row with the names of the columns, rows.
-"""
+Plain CSV: '#' comments with "key: value", a row with the names of the columns, rows."""
 import re
 
 from ..base.input_file import shown
@@ -17,10 +16,8 @@ from .record import RecordError, unit_factor
 from .text import (COMMENT, Channel, clock, direction_of, finite, numbers, positive, require_count, require_step, table,
                    whole)
 
-AT2_HEADER_LINES = 20
-"""Lines in which the number of samples of an AT2 file is searched."""
-JMA_HEADER_LINES = 30
-"""Lines in which the row of column names of a JMA file is searched."""
+AT2_HEADER_LINES = 20  # lines in which the number of samples of an AT2 file is searched
+JMA_HEADER_LINES = 30  # lines in which the row of column names of a JMA file is searched
 _PEKNOLD = "points at equal spacing of"
 
 
@@ -28,7 +25,7 @@ def sniff(lines):
     """Reader of the format of the lines, or None."""
     head = "\n".join(line for line in lines[:AT2_HEADER_LINES] if not line.startswith(COMMENT))
     start = next((line for line in lines if line.strip(FILLING)), "").strip().strip('"')
-    if knet.is_ascii(lines):
+    if lines[0].strip().strip('"').startswith("Origin Time"):
         return knet.read_ascii
     if knet.is_csv(lines):
         return knet.read_csv
@@ -55,7 +52,10 @@ def _at2(path, lines, units, stated):
     """PEER AT2 and Peknold's variant: one channel, in g unless the header states another unit."""
     count, dt, first, where = _at2_header(path, lines)
     header = lines[:first]
-    _refuse_other_quantity(path, header)
+    for number, line in enumerate(header, 1):
+        quantity, _, rest = line.strip().lower().partition(" ")
+        if quantity in ("velocity", "displacement") and rest.startswith("time"):
+            raise RecordError(f"{path}:{number}: {quantity} record; it must be acceleration")
     factor = _stated_unit(path, [unit for unit in map(_unit_in, header) if unit], units)
     values = numbers(path, lines[first:], first + 1)
     require_count(path, len(values), whole(count, f"{where}: NPTS"), "NPTS", PLAIN_CSV)
@@ -69,10 +69,11 @@ def _at2_header(path, lines):
     for number, line in head:
         if pair := _count_and_step(line):
             return *pair, number, f"{path}:{number}"
-    for number, line in head:
-        if pair := _peknold_count_and_step(line):
+    for number, line in head:  # 'n points at equal spacing of s sec'
+        before, phrase, after = line.lower().partition(_PEKNOLD)
+        if phrase and before.strip() and after.strip():
             first = next((i for i, row in enumerate(lines) if _is_numeric(row)), len(lines))
-            return *pair, first, f"{path}:{number}"
+            return before.split()[-1], after.split()[0], first, f"{path}:{number}"
     number = next((number for number, line in head if {"npts", "dt"} <= set(_words(line, ",=:"))), None)
     absent = f"without 'NPTS= n, DT= s' or 'n s NPTS, DT' in {AT2_HEADER_LINES} lines"
     problem = absent if number is None else "with NPTS and DT in another form"
@@ -97,12 +98,6 @@ def _count_and_step(line):
     return (words[npts + 1], words[dt + 1].rstrip("second")) if dt >= npts + 2 and dt + 1 < len(words) else None
 
 
-def _peknold_count_and_step(line):
-    """(n, dt) as text from 'n points at equal spacing of s sec', else None."""
-    before, phrase, after = line.lower().partition(_PEKNOLD)
-    return (before.split()[-1], after.split()[0]) if phrase and before.strip() and after.strip() else None
-
-
 def _is_numeric(line):
     try:
         return bool([float(word) for word in line.split()])
@@ -119,13 +114,6 @@ def _unit_in(line):
                     else words[i + 1 :])
             return rest[0].rstrip(".") if rest and rest[0][0].isalpha() else None
     return None
-
-
-def _refuse_other_quantity(path, header):
-    for number, line in enumerate(header, 1):
-        quantity, _, rest = line.strip().lower().partition(" ")
-        if quantity in ("velocity", "displacement") and rest.startswith("time"):
-            raise RecordError(f"{path}:{number}: {quantity} record; it must be acceleration")
 
 
 def _stated_unit(path, in_file, stated):
@@ -187,8 +175,7 @@ def _jma_header(path, lines):
 
 # --- plain CSV ----------------------------------------------------------------------------------
 
-_UNIQUE = ("dt", "sampling", "units", "unit", "samples")
-"""Comments that decide how the numbers are read."""
+_UNIQUE = ("dt", "sampling", "units", "unit", "samples")  # comments that decide how the numbers are read
 _SECONDS = {"s": 1.0, "sec": 1.0, "ms": 1e-3, None: 1.0}
 
 
@@ -213,10 +200,8 @@ def _plain_csv(path, lines, units):
 
 
 def _csv_columns(lines):
-    """(index of the row of names, names, {name: unit or None}, delimiter), or None without such a row.
-
-    It is the first row, or the comment before the first row where that has numbers (as of numpy.savetxt).
-    """
+    """(index of the row of names, names, {name: unit or None}, delimiter), or None without such a row. It is the first
+    row, or the comment before the first row where that has numbers (as of numpy.savetxt)."""
     for index, line in enumerate(lines):
         if line.startswith(COMMENT) or not line.strip(FILLING):
             continue

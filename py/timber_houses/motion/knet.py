@@ -3,8 +3,7 @@
 
 ASCII: "About K-NET ASCII format" (17 header lines, whole counts, scale factor). Its Record Time includes the logger's
 trigger delay: the first sample is 15 s earlier (DELAY). CSV: a header behind '#', each row of labels followed by a row
-of values, the names of the columns last.
-"""
+of values, the names of the columns last."""
 import re
 import warnings
 from datetime import timedelta
@@ -17,10 +16,8 @@ from .networks import PLAIN_CSV
 from .record import GAL, RecordError, RecordWarning, unit_factor
 from .text import UP, Channel, clock, direction_of, finite, numbers, positive, require_count, require_step, table
 
-HEADER_LINES = 17
-"""Of an ASCII file."""
-CSV_HEADER_LINES = 60
-"""Lines in which the names of the columns of a CSV file are searched."""
+HEADER_LINES = 17  # of an ASCII file
+CSV_HEADER_LINES = 60  # lines in which the names of the columns of a CSV file are searched
 KIK_DIRECTIONS = {"1": 0.0, "2": 90.0, "3": UP, "4": 0.0, "5": 90.0, "6": UP}
 """Channel numbers of KiK-net: 1-3 borehole, 4-6 surface, each north, east, up."""
 DELAY = timedelta(seconds=15)
@@ -28,18 +25,11 @@ DELAY = timedelta(seconds=15)
 MAX_TOLERANCE = 0.02
 """Relative difference from the header's Max. Acc., of 3 to 6 digits, above which a warning is given."""
 
-# --- ASCII --------------------------------------------------------------------------------------
-
 _FIELDS = {"Record Time": "", "Sampling Freq": "(Hz)", "Duration Time": "(s)", "Dir.": "", "Scale Factor": "",
            "Max": "(gal)"}
 """Beginning of a header line -> unit before its value. There are two spellings: 'Max. Acc. (gal)' and 'Max Acc. (gal)'.
 """
-_OPTIONAL = ("Record Time", "Max")
-"""Fields without which the record can be used."""
-
-
-def is_ascii(lines):
-    return lines[0].strip().strip('"').startswith("Origin Time")
+_OPTIONAL = ("Record Time", "Max")  # fields without which the record can be used
 
 
 def read_ascii(path, lines, units):
@@ -51,7 +41,11 @@ def read_ascii(path, lines, units):
     counts = numbers(path, lines[HEADER_LINES:], HEADER_LINES + 1)
     require_count(path, len(counts), round(finite(*fields["Duration Time"]) * rate), "Duration Time x Sampling Freq",
                   PLAIN_CSV)
-    values = (counts - counts.mean()) * _scale(*fields["Scale Factor"])
+    scale, place = fields["Scale Factor"]  # '3920(gal)/6182761'
+    gal, form, per = scale.partition("(gal)/")
+    if not form:
+        raise RecordError(f"{place}: {shown(scale)}; it must be like 3920(gal)/6182761")
+    values = (counts - counts.mean()) * (GAL * positive(gal, place) / positive(per, place))
     if "Max" in fields:
         peak, stated = np.abs(values).max() / GAL, finite(*fields["Max"])
         if abs(peak - stated) > MAX_TOLERANCE * stated + 0.01:
@@ -81,20 +75,10 @@ def _fields(path, lines):
     return fields
 
 
-def _scale(text, where):
-    """'3920(gal)/6182761' -> m/s2 per count."""
-    gal, form, counts = text.partition("(gal)/")
-    if not form:
-        raise RecordError(f"{where}: {shown(text)}; it must be like 3920(gal)/6182761")
-    return GAL * positive(gal, where) / positive(counts, where)
-
-
 def _refuse_units(path, units):
     if units is not None:
         raise RecordError(f"{path}: K-NET files state their unit; give no unit")
 
-
-# --- CSV ----------------------------------------------------------------------------------------
 
 _COLUMN = re.compile(r"(n-?s|e-?w|u-?d)(.*)", re.I)
 _UNIT = re.compile(r"\(([^()]*/[^()]*|gal|g)\)", re.I)
@@ -104,11 +88,9 @@ _SURFACE, _BOREHOLE = re.compile("2|surf|地表", re.I), re.compile("1|bor|down|
 
 def is_csv(lines):
     first = lines[0].upper()
-    return "K-NET CSV" in first or "KIK-NET CSV" in first or any(_names_time(line) for line in lines[:CSV_HEADER_LINES])
-
-
-def _names_time(line):
-    return any(column_name(cell)[0] == "relativetime" for cell in uncommented(line).split(","))
+    return "K-NET CSV" in first or "KIK-NET CSV" in first or any(
+        column_name(cell)[0] == "relativetime" for line in lines[:CSV_HEADER_LINES]
+        for cell in uncommented(line).split(","))
 
 
 def read_csv(path, lines, units):
@@ -128,7 +110,11 @@ def read_csv(path, lines, units):
     chosen = _surface_columns(columns)
     factors = [unit_factor((_UNIT.search(columns[k]) or ["", "gal"])[1], path) for k in chosen.values()]
     values = rows[:, list(chosen.values())] * factors
-    return channels_of(path, list(chosen), values - values.mean(axis=0), step, _csv_begin(path, lines, last, clocks))
+    begins = None
+    if clocks:
+        number = next(k for k, line in enumerate(lines[last + 1 :], last + 2) if line.strip(FILLING))
+        begins = clock(lines[number - 1].split(",")[clocks[0]], f"{path}:{number}: Time")
+    return channels_of(path, list(chosen), values - values.mean(axis=0), step, begins)
 
 
 def _csv_columns(path, lines):
@@ -160,9 +146,3 @@ def _surface_columns(columns):
         if name not in chosen or surface >= chosen[name][0]:
             chosen[name] = surface, k
     return {name: k for name, (_, k) in chosen.items()}
-
-
-def _csv_begin(path, lines, last, clocks):
-    """Date and time of the first row, None without a column of times."""
-    number = next(k for k, line in enumerate(lines[last + 1 :], last + 2) if line.strip(FILLING))
-    return clock(lines[number - 1].split(",")[clocks[0]], f"{path}:{number}: Time") if clocks else None

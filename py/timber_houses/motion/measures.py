@@ -10,12 +10,10 @@ import scipy  # submodules (27 MB) load on first use; a plain run needs none
 from .filters import PADDING, highpass_with_ends
 from .record import GAL, STANDARD_GRAVITY, RecordError, interpolated, subdivided
 
-CM = 0.01
-"""One centimetre in metres."""
+CM = 0.01  # one centimetre in metres
 VELOCITY_CORNER = 0.05
 """Default high-pass of velocities and displacements. [Hz] Below it records have baseline errors, not motion."""
-INTENSITY_DURATION = 0.3
-"""The filtered vector acceleration must stay at or above a0 for this long in total. [s] (JMA)"""
+INTENSITY_DURATION = 0.3  # the filtered vector acceleration must stay at or above a0 for this long in total. [s] (JMA)
 INTENSITY_STEP = 1 / 800
 """Largest step between two values of the filtered acceleration, whose highest frequency of note is 10 Hz. [s]"""
 MOST_SAMPLES = 2_000_000
@@ -29,10 +27,8 @@ STEPS_PER_PERIOD = 20
 
 
 def peak(values, component="any"):
-    """Largest absolute value of (n, 3) columns ew, ns, ud.
-
-    component: 'ew', 'ns', 'ud'; 'h', 'v3': of the horizontal or whole vector; 'level': larger horizontal one; 'any'
-    """
+    """Largest absolute value of (n, 3) columns ew, ns, ud. component: 'ew', 'ns', 'ud'; 'h', 'v3': of the horizontal or
+    whole vector; 'level': larger horizontal one; 'any'"""
     if component in ("level", "any"):
         return float(np.abs(values[:, : 2 if component == "level" else 3]).max())
     columns = {"ew": [0], "ns": [1], "ud": [2], "h": [0, 1], "v3": [0, 1, 2]}
@@ -57,10 +53,8 @@ def pgd(motion, component="h", corner=VELOCITY_CORNER):
 
 
 def velocity(motion, corner=VELOCITY_CORNER):
-    """Ground velocity from rest: trapezoidal integral of the acceleration. (n, 3) [m/s]
-
-    corner: of a zero-phase Butterworth high-pass of order 2 before integrating [Hz]; None: none
-    """
+    """Ground velocity from rest: trapezoidal integral of the acceleration. (n, 3) [m/s] corner: of a zero-phase
+    Butterworth high-pass of order 2 before integrating [Hz]; None: none"""
     return _integral(motion, corner, 1)
 
 
@@ -70,10 +64,8 @@ def displacement(motion, corner=VELOCITY_CORNER):
 
 
 def _integral(motion, corner, times):
-    """Acceleration integrated once or twice, from rest before the transients of the high-pass, against a drift.
-
-    Of more than MOST_SAMPLES every second, third ... one is integrated, with straight lines between the results.
-    """
+    """Acceleration integrated once or twice, from rest before the transients of the high-pass, against a drift. Of more
+    than MOST_SAMPLES every second, third ... one is integrated, with straight lines between the results."""
     transients = 0.0 if corner is None else 2 * PADDING / corner / motion.dt
     stride = math.ceil((len(motion) + transients) / MOST_SAMPLES)
     kept, dt, pad = np.arange(0, len(motion), stride), stride * motion.dt, 0
@@ -92,8 +84,7 @@ def _integral(motion, corner, times):
 @dataclass(frozen=True)
 class JmaIntensity:
     """JMA instrumental intensity. raw: I = 2 log10(a0) + 0.94, not rounded, -inf for a motion of zeros; official:
-    rounded to two decimals, then cut to one; a0: filtered vector acceleration reached for 0.3 s in total [gal].
-    """
+    rounded to two decimals, then cut to one; a0: filtered vector acceleration reached for 0.3 s in total [gal]."""
 
     raw: float
     official: float
@@ -114,8 +105,7 @@ def jma_filter(frequency):
 
 def jma_filtered(motion, parts=1):
     """Acceleration after JMA's filter, applied by Fourier transform of the whole record, at `parts` times per sample of
-    the motion. (n parts, 3) [m/s2]
-    """
+    the motion. (n parts, 3) [m/s2]"""
     n = len(motion)
     gain = jma_filter(np.fft.rfftfreq(n, motion.dt))
     spectrum = np.fft.rfft(motion.acceleration, axis=0) * gain[:, None]
@@ -123,10 +113,8 @@ def jma_filtered(motion, parts=1):
 
 
 def lasting_level(values, duration):
-    """Largest level at or above which periodic values stay for a duration in total, straight lines between them.
-
-    values (n,); duration: in steps between two values, at most n
-    """
+    """Largest level at or above which periodic values stay for a duration in total, straight lines between them. values
+    (n,); duration: in steps between two values, at most n"""
     ends = np.stack([values, np.roll(values, -1)])
     low, high = ends.min(axis=0), ends.max(axis=0)
     sloping = high > low
@@ -170,8 +158,7 @@ def jma_intensity(motion):
 @dataclass(frozen=True)
 class Spectrum:
     """Response spectrum of linear oscillators, arrays (m,). periods [s]; sa: largest absolute acceleration of the mass
-    [gal]; psv: pseudo-velocity, 2 pi / T times sd [cm/s]; sd: largest displacement relative to the ground [cm].
-    """
+    [gal]; psv: pseudo-velocity, 2 pi / T times sd [cm/s]; sd: largest displacement relative to the ground [cm]."""
 
     periods: np.ndarray
     sa: np.ndarray
@@ -211,27 +198,21 @@ def response_spectrum(acceleration, dt, periods, damping=0.05):
 def oscillator(acceleration, dt, period, damping=0.05):
     """Response of one oscillator at rest at the first sample: (displacement [m], absolute acceleration [m/s2]).
 
-    acceleration (n, k) of the ground [m/s2], taken as linear between samples; results have its shape.
-    With s = -damping w + i w sqrt(1 - damping^2), the displacement is Im(y) / Im(s), where y' = s y - acceleration;
-    each step of y is integrated in closed form.
-    """
+    acceleration (n, k) of the ground [m/s2], taken as linear between samples; results have its shape. With s = -damping
+    w + i w sqrt(1 - damping^2), the displacement is Im(y) / Im(s), where y' = s y - acceleration; each step of y is
+    integrated in closed form."""
     omega = 2.0 * np.pi / period
     s = complex(-damping * omega, omega * np.sqrt(1.0 - damping**2))
-    growth = np.exp(s * dt)
-    late = dt * _phi2(s * dt)
+    growth, z = np.exp(s * dt), s * dt
+    # (exp(z) - 1 - z) / z^2; by its series where cancellation would cost more than 1e-12 of it
+    late = dt * (1.0 / 2.0 + z / 6.0 + z**2 / 24.0 + z**3 / 120.0 + z**4 / 720.0 + z**5 / 5040.0 if abs(z) < 1e-2
+                 else (growth - 1.0 - z) / z**2)
     early = (growth - 1.0) / s - late
     forcing = np.zeros(acceleration.shape, dtype=complex)
     forcing[1:] = -(early * acceleration[:-1] + late * acceleration[1:])
     y = scipy.signal.lfilter([1.0], [1.0, -growth], forcing, axis=0)
     displacement_, velocity_ = y.imag / s.imag, (s * y).imag / s.imag
     return displacement_, -(2.0 * damping * omega * velocity_ + omega**2 * displacement_)
-
-
-def _phi2(z):
-    """(exp(z) - 1 - z) / z^2; by its series where cancellation would cost more than 1e-12 of it."""
-    if abs(z) < 1e-2:
-        return 1.0 / 2.0 + z / 6.0 + z**2 / 24.0 + z**3 / 120.0 + z**4 / 720.0 + z**5 / 5040.0
-    return (np.exp(z) - 1.0 - z) / z**2
 
 
 def _oscillator_peaks(columns, dt, period, damping):
@@ -260,8 +241,7 @@ def significant_duration(motion, start=0.05, end=0.95):
 
 def onset(motion, share=0.05):
     """Onset of strong shaking: the Arias intensity reaches `share` of its final value. [s]; None without shaking. With
-    0.95: its end.
-    """
+    0.95: its end."""
     growth = _energy(motion).sum(axis=1)
     return float(np.searchsorted(growth, share * growth[-1]) * motion.dt) if growth[-1] > 0.0 else None
 

@@ -5,8 +5,7 @@ import struct
 PLAIN_CSV = ("a plain CSV: a line '# dt: 0.01' (time step in s), a line 'ns [gal],ew [gal],ud [gal]', then a row of"
              " numbers for each sample")
 """What every record can be converted to."""
-HEAD_LINES = 12
-"""Lines in which the words of a format are searched."""
+HEAD_LINES = 12  # lines in which the words of a format are searched
 TEXTS = (("COSMOS", ("(format v", "cosmos")),
          ("GeoNet V1 to V3", ("geonet", "institute of geological and nuclear sciences")),
          ("SMC (USGS)", ("1 uncorrected accelerogram", "2 corrected accelerogram")),

@@ -12,10 +12,8 @@ from .filters import require_size, zero_phase_highpass
 from .measures import jma_intensity, pga
 from .record import GAL, GroundMotion, RecordError, interpolated, peaks_gal
 
-PAD_SECONDS = 5.0
-"""Zeros added at the end before a band-limited resampling, which treats the record as periodic. [s]"""
-LARGEST_RATIO = 100_000
-"""Largest numerator or denominator of old step / new step for band-limited resampling."""
+PAD_SECONDS = 5.0  # zeros added at the end before a band-limited resampling, which treats the record as periodic. [s]
+LARGEST_RATIO = 100_000  # largest numerator or denominator of old step / new step for band-limited resampling
 
 
 def turned(motion, angle):
@@ -149,16 +147,13 @@ def interpolation_error(motion, dt=0.0):
     run with a time step dt [s] that is not smaller than the samples'. Of a sequence: between its motions' own samples.
     """
     peak = np.abs(motion.acceleration).max()
-    pieces = [_own_samples(motion, part) for part in motion.parts] or [motion]
+    pieces = [motion]
+    if motion.parts:  # each with its own time step
+        ends = [[round(time / motion.dt) for time in (part.start, part.start + part.duration)] for part in motion.parts]
+        pieces = [GroundMotion(part.dt, motion.acceleration[first : end : round(part.dt / motion.dt)], motion.name)
+                  for part, (first, end) in zip(motion.parts, ends)]
     return max((resample(piece, 0.5 * piece.dt, "linear")[1] * float(np.abs(piece.acceleration).max() / peak)
                 for piece in pieces if piece.dt > dt and peak > 0), default=0.0)
-
-
-def _own_samples(motion, part):
-    """A motion of a sequence with its own time step."""
-    first, end = (round(time / motion.dt) for time in (part.start, part.start + part.duration))
-    samples = motion.acceleration[first : end : round(part.dt / motion.dt)]
-    return GroundMotion(part.dt, samples, motion.name)
 
 
 def shaking_window(motion, threshold=0.5):
@@ -171,20 +166,12 @@ def shaking_window(motion, threshold=0.5):
 
 def _changed(motion, acceleration, change, dt=None, factor=1.0, start=0.0):
     """The motion with other samples. change: for its source; dt [s]; factor [-]; start: of the kept part [s]"""
-    parts = motion.parts if dt is None else tuple(replace(part, dt=dt) for part in motion.parts)
-    dt = motion.dt if dt is None else dt
-    source = f"{motion.source}; {change}".lstrip("; ")
-    return replace(motion, dt=dt, acceleration=acceleration, source=source,
-                   parts=_changed_parts(parts, acceleration, dt, factor, start))
-
-
-def _changed_parts(parts, acceleration, dt, factor, start):
-    """The motions of a sequence after a change: their times, factors and peaks, without those that are cut off."""
-    changed = []
-    for part in parts:
-        first, end = max(part.start - start, 0.0), min(part.start + part.duration - start, len(acceleration) * dt)
-        samples = acceleration[max(0, round(first / dt)) : max(0, round(end / dt))]
+    step, parts = motion.dt if dt is None else dt, []
+    for part in motion.parts:  # of a sequence, without those that are cut off
+        first, end = max(part.start - start, 0.0), min(part.start + part.duration - start, len(acceleration) * step)
+        samples = acceleration[max(0, round(first / step)) : max(0, round(end / step))]
         if len(samples):
-            changed.append(replace(part, start=first, duration=end - first, scale=factor * part.scale,
-                                   pga_gal=peaks_gal(samples)))
-    return tuple(changed)
+            parts.append(replace(part, start=first, duration=end - first, scale=factor * part.scale,
+                                 pga_gal=peaks_gal(samples), dt=part.dt if dt is None else dt))
+    return replace(motion, dt=step, acceleration=acceleration, source=f"{motion.source}; {change}".lstrip("; "),
+                   parts=tuple(parts))

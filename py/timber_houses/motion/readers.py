@@ -2,8 +2,7 @@
 """Files to ground motion: the files of one record, and the mapping of their components.
 
 The record's components become the axes of the house (x east, y north, z up) through their azimuths, clockwise
-from north: K-NET's N-S is 0, PEER's 090 is 90, and 180 is north-south with its sign changed.
-"""
+from north: K-NET's N-S is 0, PEER's 090 is 90, and 180 is north-south with its sign changed."""
 import re
 import warnings
 from os.path import commonprefix
@@ -32,8 +31,7 @@ SUFFIXES = (("K-NET", r"\.(?:ns|ew|ud)", "PREFIX.NS .EW .UD"),
 """Endings of the names of a record's three files, tried in this order: of a KiK-net pair the surface sensor is taken
 (the borehole's three files can be named one by one)."""
 MAX_COMPONENTS, MAX_SHOWN_FILES = 3, 6
-SURPRISING = 5 * STANDARD_GRAVITY
-"""Acceleration above which a warning is given. [m/s2]"""
+SURPRISING = 5 * STANDARD_GRAVITY  # acceleration above which a warning is given. [m/s2]
 DEFAULT_RECORD = Path(__file__).resolve().parent.parent / "data" / "ojiya_like.csv"
 """The synthetic Ojiya-like motion that the package ships: output of the generator for DEFAULT_SEED."""
 
@@ -89,8 +87,12 @@ def read_unchecked(record, component=None, units=None, angle=0.0, trim_to_shorte
                       stacklevel=2)
     stems = [path.stem for path in paths]
     name = stems[0] if len(stems) == 1 else commonprefix(stems).rstrip("-_.") or stems[0]
+    times = {channel.begins for channel in channels} - {None}
+    if len(times) > 1:
+        stated = ", ".join(f"{c.path.name}: {c.begins}" for c in channels)
+        raise RecordError(f"components begin at different times ({stated}); they must be of one recording")
     source = one_line(_provenance(channels, directions))
-    return turned(GroundMotion(dt, acceleration, one_line(name), source, _beginning(channels)), angle)
+    return turned(GroundMotion(dt, acceleration, one_line(name), source, next(iter(times), None)), angle)
 
 
 def find_files(record):
@@ -173,15 +175,6 @@ def _aligned(channels, trim_to_shortest):
         raise RecordError(f"components of different length ({stated}); cut them at the shortest (--shortest), or make"
                           " them equal")
     return dt, np.column_stack([channel.values[: min(lengths)] for channel in channels])
-
-
-def _beginning(channels):
-    """Date and time of the first samples, or None; components that begin at different times are refused."""
-    times = {channel.begins for channel in channels} - {None}
-    if len(times) > 1:
-        stated = ", ".join(f"{c.path.name}: {c.begins}" for c in channels)
-        raise RecordError(f"components begin at different times ({stated}); they must be of one recording")
-    return times.pop() if times else None
 
 
 def _to_house_axes(record, values, directions):

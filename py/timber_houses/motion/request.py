@@ -45,8 +45,7 @@ class MotionRequest:
         "all other options apply to each of them, too", "RECORDS")
     gap: float = option(float, f"quiet between the records of a sequence [s] (default {DEFAULT_GAP:g})", "S", 0, 1000)
 
-    error: ClassVar[type[InputError]] = RecordError
-    """Raised by `check`."""
+    error: ClassVar[type[InputError]] = RecordError  # raised by `check`
 
     @property
     def factor(self):

@@ -9,17 +9,14 @@ import numpy as np
 from .filters import require_size
 from .record import GroundMotion, RecordError, subdivided
 
-DEFAULT_GAP = 5.0
-"""Quiet between two motions of a sequence. [s]"""
-DENOMINATOR = 100_000
-"""Largest denominator of a time step as a fraction of a second."""
+DEFAULT_GAP = 5.0  # quiet between two motions of a sequence. [s]
+DENOMINATOR = 100_000  # largest denominator of a time step as a fraction of a second
 
 
 @dataclass(frozen=True)
 class Part:
-    """One motion of a sequence. start, duration [s]; scale: own factor [-]; pga_gal: {'ns', 'ew', 'ud'} after it;
-    dt: own time step [s].
-    """
+    """One motion of a sequence. start, duration [s]; scale: own factor [-]; pga_gal: {'ns', 'ew', 'ud'} after it; dt:
+    own time step [s]."""
 
     source: str
     start: float
@@ -31,9 +28,7 @@ class Part:
 
 def joined(motions, scales, gap=DEFAULT_GAP):
     """One GroundMotion of several, times their factors, with `gap` seconds of quiet between; `parts` has their data.
-
-    The step is the largest that divides all steps, which keeps the straight lines. RecordError where there is none.
-    """
+    The step is the largest that divides all steps, which keeps the straight lines. RecordError where there is none."""
     step = common_step([motion.dt for motion in motions], " and ".join(motion.name for motion in motions))
     quiet = np.zeros((round(gap / step), 3))
     pieces, parts, start = [], [], 0.0

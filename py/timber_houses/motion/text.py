@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Text of record files: lines, numbers, tables, dates; a channel. `where` opens messages: file, line, member.
 
-String methods instead of regular expressions keep the time of a line proportional to its length.
-"""
+String methods instead of regular expressions keep the time of a line proportional to its length."""
 import re
 import warnings
 from dataclasses import dataclass, field
@@ -15,22 +14,15 @@ from ..base.input_file import read_bytes, shown
 from .networks import other_binary
 from .record import RecordError, RecordWarning
 
-MAX_FILE_SIZE = 10_000_000
-"""Of one file. [bytes]"""
-MAX_LINE = 1000
-"""Characters of one line."""
-MAX_SAMPLES = 200_000
-"""Samples of one component: 33 minutes at 100 Hz."""
-MAX_NUMBER = 1e15
-"""Largest absolute value of a number in a record, of any unit."""
-MIN_STEP, MAX_STEP = 1e-4, 1.0
-"""Time steps of accelerographs. [s]"""
-YEARS = range(1800, 2200)
-"""Years of records."""
+MAX_FILE_SIZE = 10_000_000  # of one file. [bytes]
+MAX_LINE = 1000  # characters of one line
+MAX_SAMPLES = 200_000  # samples of one component: 33 minutes at 100 Hz
+MAX_NUMBER = 1e15  # largest absolute value of a number in a record, of any unit
+MIN_STEP, MAX_STEP = 1e-4, 1.0  # time steps of accelerographs. [s]
+YEARS = range(1800, 2200)  # years of records
 COMMENT = ("#", '"#')
 """Beginnings of a comment; a spreadsheet quotes it."""
-UP = "up"
-"""Direction of a vertical channel, positive upwards; `DOWN` is positive downwards."""
+UP = "up"  # direction of a vertical channel, positive upwards; `DOWN` is positive downwards
 DOWN = "down"
 NAMES = {0.0: "ns n north northsouth y", 90.0: "ew e east eastwest x", UP: "ud u up v ver vert vertical z",
          DOWN: "dn dwn down"}
@@ -46,8 +38,7 @@ class Channel:
     values     (n,) [m/s2]
     direction  azimuth in degrees clockwise from north in which the motion is positive, UP, DOWN,
                or None where the file does not state it
-    begins     date and time of the first sample, or None where the file does not state it
-    """
+    begins     date and time of the first sample, or None where the file does not state it"""
 
     path: Path
     dt: float
@@ -92,7 +83,6 @@ def finite(text, where):
 
 
 def _with_e(text):
-    """Fortran's exponents, 0.1D-03, as 0.1E-03."""
     return re.sub(r"(?<=[0-9.])[dD](?=[-+0-9])", "E", text) if "D" in text or "d" in text else text
 
 
@@ -135,8 +125,7 @@ def table(path, lines, first, columns, delimiter, texts=()):
 
     texts: columns of other content: 0
 
-    Raises RecordError for a row of another length or a value that is not a finite number.
-    """
+    Raises RecordError for a row of another length or a value that is not a finite number."""
     rows = []
     for number, line in enumerate(lines, first):
         if line.startswith(COMMENT):
@@ -179,8 +168,7 @@ def require_step(dt, where):
 
 _CLOCK = re.compile(r"\D*(\d+)" + r"\D+(\d+)" * 4 + r"(?:\D+(\d+(?:\.\d*)?))?")
 """Year, month, day, hour, minute and, in any number of digits, seconds."""
-CENTURY_TURN = 69
-"""Years of two digits from here on are 19xx, smaller ones 20xx (POSIX)."""
+CENTURY_TURN = 69  # years of two digits from here on are 19xx, smaller ones 20xx (POSIX)
 
 
 def clock(text, where):

@@ -2,8 +2,7 @@
 """A file to which an unfinished run appends its samples at each checkpoint, so that the bytes written grow with the
 result. Needs no YADE.
 
-Its records are entries of `yade_timber.log`; the first one has the fingerprint of the run's identity.
-"""
+Its records are entries of `yade_timber.log`; the first one has the fingerprint of the run's identity."""
 import os
 import zlib
 
@@ -65,7 +64,6 @@ def read(path, run):
 
 
 def _all(path, run):
-    """As `read`, with the record of the run."""
     with record(path) as file:
         first = next(_complete(file), None)
         if first and (first[0], first[2]) != (RUN, run.encode()):

@@ -3,8 +3,7 @@
 
 A joint is broken when all its springs are, partly broken when some are. Joints that are broken before the start are
 counted apart, never as broken. Totals leave out the joints of walls, of which the sheets are counted. A column is lost
-when it has fallen (inclined by more than FALLEN_ANGLE) or is loose (no joint of it has a spring left).
-"""
+when it has fallen (inclined by more than FALLEN_ANGLE) or is loose (no joint of it has a spring left)."""
 import math
 from collections import Counter
 from dataclasses import dataclass, replace
@@ -20,15 +19,13 @@ from .walls import of_walls, sheet_states
 SIDES = ("north", "south", "east", "west", "inside")
 SNOW_DROP = 1.0
 """Snow has fallen when its centre is lower by this, and it is beyond the roof or touches the ground. [m]"""
-TOUCH = 0.05
-"""Height of the lowest corner of snow that touches the ground. [m]"""
+TOUCH = 0.05  # height of the lowest corner of snow that touches the ground. [m]
 
 
 @dataclass(frozen=True)
 class Level:
     """Top of a storey. structure: name; marks: numbers of the elements at this level; their masses [kg]; height of the
-    storey [m].
-    """
+    storey [m]."""
 
     structure: str
     marks: list
@@ -68,8 +65,6 @@ class DamageSurvey:
         self._upright = _vertical(e.orientation[self._columns])
         self._loose_at_start = self.loose_columns(State(e.position, e.orientation, np.where(j.damaged, j.springs, 0)))
 
-    # --- joints -------------------------------------------------------------------------------------------------------
-
     def count_joints(self, chosen=None):
         """JointCounts without wall sheets. chosen: (J,) bool, default all"""
         chosen = np.ones(len(self.joints.kind), bool) if chosen is None else chosen
@@ -105,8 +100,6 @@ class DamageSurvey:
             damaged_at_start=self.count_joints(self._damaged),
         )
 
-    # --- columns ------------------------------------------------------------------------------------------------------
-
     def fallen_columns(self, state):
         """(C,) bool for each column: inclined by more than FALLEN_ANGLE from its direction at the start."""
         return (_vertical(state.orientation[self._columns]) * self._upright).sum(1) < math.cos(FALLEN_ANGLE)
@@ -127,8 +120,6 @@ class DamageSurvey:
         """(C,) bool for each column: it has fallen, or become loose, since the start."""
         present = ~np.isnan(state.position[self._columns, 0])
         return present & (self.fallen_columns(state) | self.loose_columns(state) & ~self._loose_at_start)
-
-    # --- structures and snow ------------------------------------------------------------------------------------------
 
     def by_structure(self, state, judged):
         """{name: verdict.Structure}, the main one first; the residual drift is that of the last sample.

@@ -6,18 +6,12 @@ from .history import DIRECTIONS
 
 SHORT_WINDOW = 1.0
 """Last part of a run without a whole period of oscillation, over which the residual drift is averaged. [s]"""
-SLOW_WINDOW = 5.0
-"""Last part of such a run that gives the amplitude, about the period of a swinging wreck. [s]"""
-WINDOWS = (2.0, 4.0, 8.0, 16.0)
-"""Last parts of a run in which two periods' ends are searched, the shortest first. [s]"""
-AVERAGED = 2.0
-"""The last whole periods that make up this time, at least one, are averaged: slow swings decay. [s]"""
-HYSTERESIS = 0.25
-"""A zero crossing counts after an excursion to the other side by this share of half the range. [-]"""
-RECENT = 1.2
-"""The last whole period must end at most this many periods before the end of the run. [-]"""
-MOVING_AMPLITUDE = 1e-3
-"""A house whose drift oscillates by more at the end is still moving. [-]"""
+SLOW_WINDOW = 5.0  # last part of such a run that gives the amplitude, about the period of a swinging wreck. [s]
+WINDOWS = (2.0, 4.0, 8.0, 16.0)  # last parts of a run in which two periods' ends are searched, the shortest first. [s]
+AVERAGED = 2.0  # the last whole periods that make up this time, at least one, are averaged: slow swings decay. [s]
+HYSTERESIS = 0.25  # a zero crossing counts after an excursion to the other side by this share of half the range. [-]
+RECENT = 1.2  # the last whole period must end at most this many periods before the end of the run. [-]
+MOVING_AMPLITUDE = 1e-3  # a house whose drift oscillates by more at the end is still moving. [-]
 
 
 def residual(history):
@@ -25,20 +19,17 @@ def residual(history):
 
     Residual drift: absolute mean over the last whole periods of oscillation, so that it does not depend on the phase at
     the end; without a whole period the mean of the last SHORT_WINDOW. Amplitude: half the range of the drift in the
-    same periods, or in the last SLOW_WINDOW.
-    """
+    same periods, or in the last SLOW_WINDOW."""
     if not history.samples:
         return [], []
-    parts = [last_parts(history.time, values) for _, _, values in history.drifts()]
-    return [float(abs(averaged.mean())) for averaged, _ in parts], [float(np.ptp(moving) / 2) for _, moving in parts]
-
-
-def last_parts(time, values):
-    """(values that give the residual drift, values that give the amplitude) of the last part of a run."""
-    periods = last_periods(time, values)
-    if periods is not None:
-        return values[periods], values[periods]
-    return values[start_of(time, SHORT_WINDOW):], values[start_of(time, SLOW_WINDOW):]
+    residuals, amplitudes, time = [], [], history.time
+    for _, _, values in history.drifts():
+        periods = last_periods(time, values)
+        averaged = slice(start_of(time, SHORT_WINDOW), None) if periods is None else periods
+        moving = slice(start_of(time, SLOW_WINDOW), None) if periods is None else periods
+        residuals.append(float(abs(values[averaged].mean())))
+        amplitudes.append(float(np.ptp(values[moving]) / 2))
+    return residuals, amplitudes
 
 
 def last_periods(time, values):

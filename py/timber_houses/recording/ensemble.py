@@ -2,8 +2,7 @@
 """Files of an ensemble: runs of one scenario whose vertices differ by at most 1e-9 m.
 
 The folder of the ensemble holds ensemble.json, ensemble.csv, the results of the run that is shown, and a folder for
-each run: runs/001, runs/002, ... Run 1 is undisturbed; run k is disturbed with the seed k.
-"""
+each run: runs/001, runs/002, ... Run 1 is undisturbed; run k is disturbed with the seed k."""
 import json
 
 from ..base.errors import RunError
@@ -13,8 +12,7 @@ from .history import NAME as HISTORY
 from .history import History
 
 NAME, TABLE, RUNS = "ensemble.json", "ensemble.csv", "runs"
-NAMES = (NAME, TABLE)
-"""Files beside the results of the run that is shown."""
+NAMES = (NAME, TABLE)  # files beside the results of the run that is shown
 
 
 def run_folder(folder, number):

@@ -4,8 +4,7 @@
 FirstBreak, Tilt (a storey drift passes verdict.TILT), Collapse (an upper floor comes down by verdict.FALL),
 StructureFallen (another structure than the main one): at the time they happen; OwnWeight (damaged before the shaking):
 in the last frame before it; ColumnsLost, SnowFallen: at the end of the frame interval in which they happen.
-ShakingBegins, StrongestShaking, LevelPassed: of the player, not recorded.
-"""
+ShakingBegins, StrongestShaking, LevelPassed: of the player, not recorded."""
 from dataclasses import dataclass, field
 
 from ..base.json_types import decode, encode, require
@@ -118,7 +117,6 @@ class EventLog:
         self.events = decode(list[Event], list(events), "events")
 
     def sorted(self):
-        """Events in the order of time."""
         return sorted(self.events, key=lambda event: event.time_s)
 
     def encoded(self):
@@ -135,20 +133,11 @@ class EventLog:
 
     def observe(self, time, state):
         """Note the events of a State that were not there before."""
-        for roof in self.survey.fallen_snow(state):
-            self.add(time, self._fallen_snow(roof))
-        self._observe_columns(time, state)
-
-    def _observe_columns(self, time, state):
-        """An event for the first lost column, and each time the number has doubled: a collapse gives few events."""
+        e, main = self.survey.elements, self.survey.structures[0]
+        for roof in self.survey.fallen_snow(state):  # 'main.roof.west' or 'entrance.roof'
+            layer, _, side = e.name[roof].removeprefix(f"{e.group[roof]}.").partition(".")
+            self.add(time, SnowFallen("" if e.group[roof] == main else e.group[roof], side, layer))
         total, lost = self.survey.count_columns(state).total, int(self.survey.lost_columns(state).sum())
         reported = max((event.facts.number for event in self.events if event.kind == "columns_lost"), default=0)
-        if lost >= max(1, 2 * reported):
+        if lost >= max(1, 2 * reported):  # the first, and each time the number has doubled: a collapse gives few events
             self.add(time, ColumnsLost(lost, total))
-
-    def _fallen_snow(self, roof):
-        """SnowFallen of an element 'main.roof.west' or 'entrance.roof'."""
-        e = self.survey.elements
-        structure, name = e.group[roof], e.name[roof]
-        layer, _, side = name.removeprefix(f"{structure}.").partition(".")
-        return SnowFallen("" if structure == self.survey.structures[0] else structure, side, layer)

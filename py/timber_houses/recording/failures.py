@@ -6,10 +6,8 @@ import numpy as np
 
 from ..base.joint_kinds import WALL_COLUMN
 
-MOST = 8
-"""Number of failures."""
-ONE_TIME = 0.05
-"""Failures of like joints within this time are one. [s]"""
+MOST = 8  # number of failures
+ONE_TIME = 0.05  # failures of like joints within this time are one. [s]
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Frames and contacts in a log, a record for each time: of an unfinished run beside frames.h5, or of a user's scene.
-"""
+"""Frames and contacts in a log, a record for each time: of an unfinished run beside frames.h5, or of a user's scene."""
 import numpy as np
 from yade_timber.log import CONTACTS, FRAME
 

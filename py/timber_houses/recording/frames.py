@@ -34,8 +34,7 @@ attributes   format, title (house and loads), scenario, model, version (of the p
 
 Frames are recorded FRAMES_PER_SECOND times per simulated second from t = 0, and at the last step. Until the run has
 ended, the frames and contacts up to its last checkpoint are in frames.log beside the file (frame_log.py), which `load`
-reads, too. It also reads the log of a user's scene (`yt.record`).
-"""
+reads, too. It also reads the log of a user's scene (`yt.record`)."""
 import io
 import json
 from pathlib import Path
@@ -117,7 +116,11 @@ def save(path, frames):
         _save_group(file.create_group("joints"), vars(frames.joints))
         _save_group(file.create_group("sheets"), vars(frames.sheets))
         _save_group(file.create_group("frames"), frame_log.series(frames))
-        _save_contacts(file.create_group("contacts"), frames.contacts)
+        contacts, widths = frames.contacts, {"pair": ("i4", 2), "position": ("f4", 3), "force": ("f4", 3)}
+        flat = {name: np.concatenate([np.empty((0, width), kind), *getattr(contacts, name)])
+                for name, (kind, width) in widths.items()}
+        _save_group(file.create_group("contacts"), {"time": np.asarray(contacts.time, float),
+                                                    "start": starts(contacts.pair), **flat})
         if frames.motion:
             group = file.create_group("motion")
             group.attrs.update(dt=frames.motion.dt, start=frames.motion.start)
@@ -137,13 +140,6 @@ def _save_group(group, values):
         group.create_dataset(name, data=value, dtype=h5py.string_dtype() if text else None)
 
 
-def _save_contacts(group, contacts):
-    shapes = {"pair": ("i4", 2), "position": ("f4", 3), "force": ("f4", 3)}
-    flat = {name: np.concatenate([np.empty((0, width), kind), *getattr(contacts, name)])
-            for name, (kind, width) in shapes.items()}
-    _save_group(group, {"time": np.asarray(contacts.time, float), "start": starts(contacts.pair), **flat})
-
-
 # --- reading ----------------------------------------------------------------------------------------------------------
 
 
@@ -152,6 +148,7 @@ def load(path, missing="frames are recorded unless a run has --no-frames, and no
     try:
         loaded = _load_scene(path) if append_log.is_log(path, missing) else _load_run(path, missing)
         _check_numbers(loaded)
+        _check_finite(loaded)
     except RunError:
         raise
     except (*FAULTS, OverflowError) as problem:
@@ -194,7 +191,6 @@ def _check_numbers(frames):
     for name, values, limit in numbers:
         if len(values) and not (0 <= np.min(values) and np.max(values) < limit):
             raise ValueError(f"{name}: a number outside 0 ... {limit - 1}")
-    _check_finite(frames)
 
 
 def _check_finite(frames):
@@ -216,7 +212,10 @@ def _load(file):
     series = {name: file["frames"][name][()] for name in ("time", "position", "orientation", "load", "broken")}
     loaded = Frames(**attributes, elements=_elements(_values(file["elements"])),
                     joints=Joints(**_values(file["joints"])),
-                    sheets=Sheets(**_values(file["sheets"])), **series, contacts=_load_contacts(file["contacts"]))
+                    sheets=Sheets(**_values(file["sheets"])), **series)
+    contacts = _values(file["contacts"])
+    loaded.contacts = Contacts(list(contacts["time"]), *(_split(contacts[name], contacts["start"])
+                                                         for name in ("pair", "position", "force")))
     if "motion" in file:
         numbers = {name: float(file["motion"].attrs[name]) for name in ("dt", "start")}
         loaded.motion = Motion(**numbers, **_values(file["motion"]))
@@ -231,7 +230,6 @@ def _load(file):
 
 
 def _values(group):
-    """{name: array, or list of strings}."""
     return {name: list(data.asstr()[()]) if h5py.check_string_dtype(data.dtype) else data[()]
             for name, data in group.items()}
 
@@ -244,15 +242,8 @@ def _split(flat, start):
 
 
 def _elements(values):
-    """Elements of the tables of /elements."""
     begins = {name: values.pop(name) for name in ("vertex_start", "face_start", "element_start")}
     faces = [list(map(int, face)) for face in _split(values["faces"], begins["face_start"])]
     values |= {"vertices": _split(values["vertices"], begins["vertex_start"]),
                "faces": _split(faces, begins["element_start"])}
     return Elements(**values)
-
-
-def _load_contacts(group):
-    values = _values(group)
-    return Contacts(list(values["time"]),
-                    *(_split(values[name], values["start"]) for name in ("pair", "position", "force")))

@@ -12,8 +12,7 @@
     history.column("drop1")               # any column, with or without its unit
 
 Columns: time [s]; for each storey k: drift_nsk [-], drift_ewk [-], dropk [m]; broken_joints [-], broken_springs [-];
-one column [J] for each term of `yade_timber.energy()`.
-"""
+one column [J] for each term of `yade_timber.energy()`."""
 import numpy as np
 
 from .series import Series

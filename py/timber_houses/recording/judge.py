@@ -3,8 +3,7 @@
 
 A structure tilts when a storey drift exceeds TILT before it falls, and falls when a level comes down by FALL of its
 storey. Drifts at columns are those of heads relative to feet, over the length; columns that have fallen (FALLEN_ANGLE)
-or have no joint left do not count.
-"""
+or have no joint left do not count."""
 import math
 from dataclasses import dataclass
 

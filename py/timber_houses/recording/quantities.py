@@ -5,23 +5,19 @@ Part 2k is level k: floor, beams, roof and snow above storey k; level 0: sills t
 braces and walls of storey k. The shear of storey k is the horizontal inertia force, minus mass times absolute
 acceleration, of everything above the heads of its columns; the base shear is that of all parts. A positive shear goes
 with a positive drift. Shears are means over a sample interval (0.01 s), accelerations what an accelerometer with the
-band BAND shows: members that hit each other give peaks of a few ms, of any height.
-"""
+band BAND shows: members that hit each other give peaks of a few ms, of any height."""
 import numpy as np
 
 from .history import DIRECTIONS
 from .series import Series
 
 NAME = "storeys.csv"
-SUSTAINED = 0.1
-"""Time over which a sustained shear is averaged. [s]"""
-BAND = (0.0, 10.0)
-"""Of accelerations [Hz]: up to the high-cut of JMA's intensity, where the amplitude is 1/sqrt(2)."""
+SUSTAINED = 0.1  # time over which a sustained shear is averaged. [s]
+BAND = (0.0, 10.0)  # of accelerations [Hz]: up to the high-cut of JMA's intensity, where the amplitude is 1/sqrt(2)
 BAND_TEXT = f"{BAND[0]:g} to {BAND[1]:g} Hz"
 ORDER, STEP, PADDING = 3, 0.01, 1.0
 """Of the low-pass (Butterworth's amplitude, no phase), its time step, ends held for its transients. [s]"""
-AXES = {"ew": 0, "ns": 1, "ud": 2}
-"""Component of a vector (east, north, up)."""
+AXES = {"ew": 0, "ns": 1, "ud": 2}  # component of a vector (east, north, up)
 
 
 class Storeys(Series):
@@ -29,8 +25,7 @@ class Storeys(Series):
 
     time [s]; base_shear_ns, base_shear_ew [N]; ground_acceleration_ns, _ew, _ud [m/s2]; for each storey k from 1:
     shear_nsk, shear_ewk [N] and the absolute acceleration of the level above it, acceleration_nsk, acceleration_ewk,
-    acceleration_udk [m/s2]. Accelerations within BAND.
-    """
+    acceleration_udk [m/s2]. Accelerations within BAND."""
 
     __slots__ = ()
 
@@ -55,10 +50,8 @@ class Storeys(Series):
 
 
 def storeys(samples, masses, motion=None):
-    """Storeys of a run. motion: frames.Motion or None; masses (P,) of parts [kg].
-
-    samples (F + 1, 1 + 3 P): time [s], momenta of the parts relative to the ground, east, north, up [kg m/s]
-    """
+    """Storeys of a run. motion: frames.Motion or None; masses (P,) of parts [kg]. samples (F + 1, 1 + 3 P): time [s],
+    momenta of the parts relative to the ground, east, north, up [kg m/s]"""
     samples, masses = np.asarray(samples, float), np.asarray(masses, float)
     time, steps = samples[:, 0], np.diff(samples[:, 0])
     steps = np.where(steps > 0, steps, np.nan)[:, None]

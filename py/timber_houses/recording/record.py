@@ -56,18 +56,14 @@ class Joints(_ShortRepr):
         self.sheet = np.full(len(self.name), -1) if self.sheet is None else self.sheet
 
 
-def _no_elements():
-    return np.empty(0, int)
-
-
 @dataclass(repr=False)
 class Sheets(_ShortRepr):
     """As in /sheets."""
 
     type: list = field(default_factory=list)
     opening: list = field(default_factory=list)
-    low: np.ndarray = field(default_factory=_no_elements)
-    high: np.ndarray = field(default_factory=_no_elements)
+    low: np.ndarray = field(default_factory=lambda: np.empty(0, int))
+    high: np.ndarray = field(default_factory=lambda: np.empty(0, int))
 
 
 @dataclass(repr=False)
@@ -109,8 +105,7 @@ class Frames:
     """The file's content. time, position, orientation, load, broken: arrays, or lists during a run.
 
     scenario: '' of a user's scene; summary: Summary, of a town TownSummary; breaks, peaks, columns: dictionaries of
-    /breaks, /joint_peaks and /columns; None before the run's end, the last three and storeys also of a town.
-    """
+    /breaks, /joint_peaks and /columns; None before the run's end, the last three and storeys also of a town."""
 
     title: str
     scenario: str

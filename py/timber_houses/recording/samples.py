@@ -5,10 +5,8 @@ import numpy as np
 from .history import DIRECTIONS, History
 from .series import Series
 
-NORTH_EAST = [1, 0]
-"""Components of a vector (east, north, up) in the order of DIRECTIONS."""
-FIRST_GROUP = "x0 [m]"
-"""Column of Sampler at which the groups begin, six columns each."""
+NORTH_EAST = [1, 0]  # components of a vector (east, north, up) in the order of DIRECTIONS
+FIRST_GROUP = "x0 [m]"  # column of Sampler at which the groups begin, six columns each
 
 
 class Samples(Series):

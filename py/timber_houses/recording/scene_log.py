@@ -11,8 +11,7 @@ from ..base.record_file import MAX_JSON
 from . import append_log
 from .table_file import KINDS
 
-WITHOUT = {"group", "storey", "side", "sheet"}
-"""Tables of a frames.h5 that the description does not have."""
+WITHOUT = {"group", "storey", "side", "sheet"}  # tables of a frames.h5 that the description does not have
 
 
 def read(path, layout):

@@ -4,8 +4,7 @@ from dataclasses import dataclass
 
 from ..base.json_types import decode, further, optional
 
-Drifts = dict[str, dict[str, float | None]]
-"""{storey: {direction: drift [-], None where there is none}}"""
+Drifts = dict[str, dict[str, float | None]]  # {storey: {direction: drift [-], None where there is none}}
 
 
 class Components(dict):

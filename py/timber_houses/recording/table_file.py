@@ -3,8 +3,7 @@
 
 A layout: {group: Group}, the root named ''. A file may lack parts of it. What else HDF5 can hold is refused: links,
 data in other files, chunks and filters (nothing expands), types with a name, references, one object under two names.
-The entries of each table lie in the file as they are, and all together take no more bytes than the file has.
-"""
+The entries of each table lie in the file as they are, and all together take no more bytes than the file has."""
 import math
 import os
 from contextlib import contextmanager
@@ -20,15 +19,13 @@ FAULTS = (OSError, LookupError, ValueError, TypeError, AttributeError, RuntimeEr
 """Errors of h5py, numpy or json for a file of another format."""
 KINDS = {"number": "fiu", "whole": "iu", "flag": "b"}
 """Kinds of entries, but for 'text' (strings of variable length), as kinds of numpy."""
-TEXT_ENTRY = 16
-"""Of a string, in its table: length, address, number. [bytes]"""
+TEXT_ENTRY = 16  # of a string, in its table: length, address, number. [bytes]
 
 
 @dataclass(frozen=True)
 class Group:
     """tables: {name: (kind, length, ...)}, each length being a number, or a text that stands for one in the whole file;
-    attributes: {name: kind}, single values
-    """
+    attributes: {name: kind}, single values"""
 
     tables: dict = field(default_factory=dict)
     attributes: dict = field(default_factory=dict)
@@ -37,8 +34,7 @@ class Group:
 @contextmanager
 def opened(path, layout, missing=""):
     """h5py.File of a path. missing: remedy for a missing file. Raises RunError for what is no file, one of FAULTS for
-    what is not of the layout.
-    """
+    what is not of the layout."""
     with record(path, missing) as file, h5py.File(f"/proc/self/fd/{file.fileno()}", "r") as tables:
         _Inspection(file.fileno(), layout).file(tables)
         yield tables
@@ -98,7 +94,11 @@ class _Inspection:
 
     def table(self, table, place, kind, *lengths):
         self.attributes(table, place, {})
-        _require_contiguous(table.get_create_plist(), place)
+        properties = table.get_create_plist()
+        if properties.get_external_count():
+            raise ValueError(f"{place}: its entries are in other files")
+        if properties.get_layout() != h5d.CONTIGUOUS or properties.get_nfilters():
+            raise ValueError(f"{place}: chunked, compressed or virtual")
         if table.get_space().get_simple_extent_type() != h5s.SIMPLE:
             raise ValueError(f"{place}: no table")
         shape, form = table.shape, table.get_type()
@@ -130,13 +130,6 @@ class _Inspection:
 def _require_no_others(count, place):
     if count:
         raise ValueError(f"{place or 'the file'}: {count} unknown entries or attributes")
-
-
-def _require_contiguous(properties, place):
-    if properties.get_external_count():
-        raise ValueError(f"{place}: its entries are in other files")
-    if properties.get_layout() != h5d.CONTIGUOUS or properties.get_nfilters():
-        raise ValueError(f"{place}: chunked, compressed or virtual")
 
 
 def _require_kind(form, kind, place, empty=False):

@@ -11,8 +11,7 @@ from .summary import TownSummary
 
 MOST_PLACEMENTS = 4_000_000
 """Elements times frames of a town, above which frames are left out. [-] A player of that size has 30 MB."""
-SHOWN = ("tilt", "collapse", "structure_fallen", "snow_fallen")
-"""Kinds of events of a lot that are events of the town."""
+SHOWN = ("tilt", "collapse", "structure_fallen", "snow_fallen")  # kinds of events of a lot that are events of the town
 
 
 SIDES = {"east": (1, 0), "north": (0, 1), "west": (-1, 0), "south": (0, -1)}
@@ -20,8 +19,7 @@ SIDES = {"east": (1, 0), "north": (0, 1), "west": (-1, 0), "south": (0, -1)}
 
 def summary(name, results, record):
     """TownSummary. results: {name of a lot: (its Summary, (3, 3) axes of the house, LotResult)}; record: Record of the
-    motion that reaches the town
-    """
+    motion that reaches the town"""
     events = [replace(event, facts=_in_town(event.facts, axes), lot=lot) for lot, (one, axes, _) in results.items()
               for event in one.events if event.kind in SHOWN]
     lots = [one for one, *_ in results.values()]
@@ -44,8 +42,7 @@ def _in_town(facts, axes):
 
 def town_side(side, axes):
     """The compass side of the town nearest to a side of a house, or to each of several, 'south+west'; other words as
-    they are.
-    """
+    they are."""
     def nearest(word):
         return max(SIDES, key=lambda other: np.dot(SIDES[other], axes[:2, :2] @ SIDES[word]))
     return "+".join(nearest(word) if word in SIDES else word for word in side.split("+"))
@@ -54,25 +51,30 @@ def town_side(side, axes):
 def town_frames(summary, lots):
     """Frames of a town without grounds and contacts. summary: TownSummary; lots: (name, (3, 3) axes of the house, (3,)
     place [m], Frames)"""
-    name = summary.model
     placed = [_Lot(*lot) for lot in lots]
     longest = max((lot.run for lot in placed), key=lambda run: len(run.time))
     count = sum(len(lot.kept) for lot in placed)
     stride = -(-count * len(longest.time) // MOST_PLACEMENTS)
     numbers = sorted({*range(0, len(longest.time), stride), len(longest.time) - 1})
-    offsets = frames.starts([lot.kept for lot in placed])
-    first_joints = frames.starts([lot.run.joints.name for lot in placed])
-    town = frames.Frames(f"Town {name}", name, name, longest.version, _elements(placed), _joints(placed, offsets),
-                         sheets=_sheets(placed, offsets))
+    for name, parts in (("element", [lot.kept for lot in placed]), ("joint", [lot.run.joints.name for lot in placed]),
+                        ("sheet", [lot.run.sheets.type for lot in placed])):
+        for lot, first in zip(placed, frames.starts(parts)):
+            lot.first[name] = first
+    town = frames.Frames(f"Town {summary.model}", summary.model, summary.model, longest.version,
+                         _table(frames.Elements, placed, "elements"), _table(frames.Joints, placed, "joints"),
+                         sheets=_table(frames.Sheets, placed, "sheets"))
     town.time = [longest.time[k] for k in numbers]
     for k in numbers:
         states = [lot.state(k) for lot in placed]
         for key, values in zip(("position", "orientation", "load", "broken"), map(np.concatenate, zip(*states))):
             getattr(town, key).append(values)
-    town.motion = _motion(placed)
+    first = min((lot for lot in placed if lot.run.motion), key=lambda lot: lot.run.motion.start, default=None)
+    if first is not None:  # which the wave reaches first
+        motion, axes = first.run.motion, first.axes.T
+        town.motion = frames.Motion(motion.dt, motion.start, motion.acceleration @ axes, motion.displacement @ axes)
     town.summary = summary
     town.history = History(("time [s]",), np.empty((0, 1)))
-    town.breaks = _breaks(placed, first_joints)
+    town.breaks = _breaks(placed)
     return town
 
 
@@ -85,6 +87,21 @@ class _Lot:
         self.kept = [k for k, kind in enumerate(run.elements.kind) if kind != "ground" or k in held]
         half = np.arctan2(self.axes[1, 0], self.axes[0, 0]) / 2
         self.turn = np.cos(half), np.sin(half)  # w, z of the quaternion
+        self.first = {}  # {'element', 'joint', 'sheet': number of the lot's first one in the town}
+
+    def column(self, table, key, values):
+        """Values of a column in the town. table: 'elements', 'joints' or 'sheets'"""
+        if (table, key) in (("elements", "position"), ("elements", "orientation")):
+            return self.placed(values) if key == "position" else self.turned(values)
+        if table == "elements":
+            values = values[self.kept] if isinstance(values, np.ndarray) else [values[k] for k in self.kept]
+        if (table, key) in (("elements", "name"), ("elements", "group"), ("joints", "name")):
+            return [f"{self.name}.{value}" for value in values]
+        if key in ("a", "b", "low", "high"):
+            return (np.searchsorted(self.kept, values) + self.first["element"]).astype("i4")
+        if key == "sheet":
+            return np.where(values < 0, -1, values + self.first["sheet"])
+        return [town_side(side, self.axes) for side in values] if key == "side" else values
 
     def placed(self, position):
         return np.asarray(position, float)[self.kept] @ self.axes.T + self.place
@@ -102,62 +119,20 @@ class _Lot:
                 run.broken[k])
 
 
-def _elements(lots):
-    parts = [(lot, lot.run.elements) for lot in lots]
-
-    def taken(key):
-        return [getattr(e, key)[k] for lot, e in parts for k in lot.kept]
-
-    return frames.Elements(name=[f"{lot.name}.{e.name[k]}" for lot, e in parts for k in lot.kept],
-                           group=[f"{lot.name}.{e.group[k]}" for lot, e in parts for k in lot.kept],
-                           **{key: taken(key) for key in ("kind", "material", "vertices", "faces")},
-                           **{key: np.array(taken(key)) for key in ("storey", "fixed")},
-                           position=np.concatenate([lot.placed(e.position) for lot, e in parts]),
-                           orientation=np.concatenate([lot.turned(e.orientation) for lot, e in parts]))
+def _table(kind, lots, table):
+    """Elements, Joints or Sheets of the town from those of the lots. table: their name in Frames"""
+    columns = {}
+    for key in vars(getattr(lots[0].run, table)):
+        parts = [lot.column(table, key, getattr(getattr(lot.run, table), key)) for lot in lots]
+        columns[key] = (np.concatenate(parts) if isinstance(parts[0], np.ndarray)
+                        else [value for part in parts for value in part])
+    return kind(**columns)
 
 
-def _joints(lots, offsets):
-    """Joints with the element numbers of the town. offsets: number of the first element of each lot"""
-    parts = [lot.run.joints for lot in lots]
-    first_sheets = frames.starts([lot.run.sheets.type for lot in lots])
-    return frames.Joints(
-        name=[f"{lot.name}.{name}" for lot in lots for name in lot.run.joints.name],
-        **{key: [value for j in parts for value in getattr(j, key)] for key in ("kind", "storey")},
-        side=[town_side(side, lot.axes) for lot, j in zip(lots, parts) for side in j.side],
-        **{key: _numbers(lots, parts, key, offsets) for key in ("a", "b")},
-        sheet=np.concatenate([np.where(j.sheet < 0, -1, j.sheet + first) for j, first in zip(parts, first_sheets)]),
-        **{key: np.concatenate([getattr(j, key) for j in parts])
-           for key in ("anchor", "springs", "damaged", "strength")},
-    )
-
-
-def _sheets(lots, offsets):
-    """Sheets with the element numbers of the town."""
-    parts = [lot.run.sheets for lot in lots]
-    return frames.Sheets(*([value for part in parts for value in getattr(part, key)] for key in ("type", "opening")),
-                         **{key: _numbers(lots, parts, key, offsets) for key in ("low", "high")})
-
-
-def _numbers(lots, parts, key, offsets):
-    """Element numbers of the lots' tables as those of the town."""
-    return np.concatenate([np.searchsorted(lot.kept, getattr(part, key)) + offset
-                           for lot, part, offset in zip(lots, parts, offsets)]).astype("i4")
-
-
-def _motion(lots):
-    """Motion of the lot that the wave reaches first, in the axes of the town; None without an earthquake."""
-    first = min((lot for lot in lots if lot.run.motion), key=lambda lot: lot.run.motion.start, default=None)
-    if first is None:
-        return None
-    motion = first.run.motion
-    axes = first.axes.T
-    return frames.Motion(motion.dt, motion.start, motion.acceleration @ axes, motion.displacement @ axes)
-
-
-def _breaks(lots, first_joints):
-    """Breaks of all lots in the order of time. first_joints: number of the first joint of each lot"""
+def _breaks(lots):
+    """Breaks of all lots in the order of time."""
     columns = list(lots[0].run.breaks)
-    rows = [[value + first if key == "joint" else value for key, value in zip(columns, row)]
-            for lot, first in zip(lots, first_joints) for row in zip(*(lot.run.breaks[key] for key in columns))]
+    rows = [[value + lot.first["joint"] if key == "joint" else value for key, value in zip(columns, row)]
+            for lot in lots for row in zip(*(lot.run.breaks[key] for key in columns))]
     rows.sort(key=lambda row: row[columns.index("time")])
     return {key: [row[k] for row in rows] for k, key in enumerate(columns)}

@@ -9,8 +9,7 @@ repairable  such a drift reached the damage limit, or springs of joints broke
 undamaged   none of these
 
 Peak drifts decide, since a frame that swings back may have lost its strength. A structure leans when its residual drift
-exceeds the tilt.
-"""
+exceeds the tilt."""
 import math
 from dataclasses import dataclass, field
 
@@ -43,22 +42,18 @@ DAMAGE = Limit(1 / 120, "damage limit", "Building Standard Law of Japan, Enforce
 SAFETY = Limit(1 / 30, "safety limit", "Japan Building Disaster Prevention Association, seismic diagnosis of wooden"
                " houses; limit strength calculation")
 TILT = Limit(1 / 10, "tilt", "this package: the weight of the upper storey begins to overturn the house")
-LIMITS = (DAMAGE, SAFETY, TILT)
-"""Of peak drifts."""
+LIMITS = (DAMAGE, SAFETY, TILT)  # of peak drifts
 LOSS = Limit(1 / 20, "limit of a total loss", "Cabinet Office of Japan, guidelines for damage certificates of houses:"
              " tilt of outer walls or columns; of the residual drift")
 """The guidelines take the mean tilt at the four corners of storey 1 (compared: excerpt on velocities1.rssing.com)."""
-FALL = 1 / 2
-"""Height by which a level of a collapsed structure has come down, over that of its storey. [-]"""
-FALLEN_ANGLE = math.radians(45)
-"""Inclination beyond which a column has fallen. [rad]"""
+FALL = 1 / 2  # height by which a level of a collapsed structure has come down, over that of its storey. [-]
+FALLEN_ANGLE = math.radians(45)  # inclination beyond which a column has fallen. [rad]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Structure:
     """Facts on a structure, and its verdict. Drifts [-]; settled: whether the one at the end is a residual drift;
-    numbers of joints and lost columns since the start.
-    """
+    numbers of joints and lost columns since the start."""
 
     verdict: str = field(init=False)
     leans: bool = field(init=False)

@@ -7,8 +7,7 @@ line. YADE's loader stops before it, so the file also opens with `O.load`. Once 
 
 YADE's loader creates whatever object the file names, also a PyRunner, which runs code. The binary format names each
 such class, with its namespace, before the first object of it; a file that names other classes than a run writes is
-refused before YADE reads it. `sha256` finds damage, not forgery.
-"""
+refused before YADE reads it. `sha256` finds damage, not forgery."""
 import errno
 import hashlib
 import json
@@ -81,15 +80,22 @@ def enclose(path, content):
 
 def load(path, identity, kind=dict):
     """Load the saved scene; returns `progress` as saved, and the enclosed samples or b"". kind: of progress, as of
-    json_types. Raises RunError for damage or another identity.
-    """
+    json_types. Raises RunError for damage or another identity."""
     body, samples, seal = _read(path, kind)
-    _require_same(path, seal["identity"], identity)
+    for key in sorted(seal["identity"].keys() | identity.keys()):
+        there, here = seal["identity"].get(key), identity.get(key)
+        if there != here:
+            raise RunError(f"{path}: checkpoint of another run: {key} is {there} there and {here} here; use the same"
+                           " options, another --out, or no --resume")
     foreign = sorted({name.decode() for name in re.findall(rb"yade::(\w*)", body)} - CLASSES)
     if foreign:
         raise RunError(f"{path}: holds {foreign[0][:40]}, which no run of this package saves; {REMEDY}")
+    descriptor = os.memfd_create(NAME)
     try:
-        _load(body)
+        with open(descriptor, "wb") as memory:  # of the bytes that were checked, whatever is at the path by now
+            memory.write(body)
+            memory.flush()
+            O.load(f"/proc/self/fd/{descriptor}", quiet=True)
     except Exception as problem:  # of Boost: written by other classes than those loaded now
         raise RunError(f"{path}: YADE cannot load it ({problem}); {REMEDY}") from None
     return seal["progress"], samples
@@ -114,20 +120,3 @@ def _read(path, kind=dict):
     if not complete:
         raise RunError(f"{path}: damaged, or not a checkpoint of this package; {REMEDY}")
     return content[:end], content[end:], seal
-
-
-def _load(content):
-    """Load the bytes that were checked, whatever is at the path by now."""
-    descriptor = os.memfd_create(NAME)
-    with open(descriptor, "wb") as memory:
-        memory.write(content)
-        memory.flush()
-        O.load(f"/proc/self/fd/{descriptor}", quiet=True)
-
-
-def _require_same(path, saved, wanted):
-    for key in sorted(saved.keys() | wanted.keys()):
-        there, here = saved.get(key), wanted.get(key)
-        if there != here:
-            raise RunError(f"{path}: checkpoint of another run: {key} is {there} there and {here} here; use the same"
-                           " options, another --out, or no --resume")

@@ -13,8 +13,7 @@ from .options import SNOW_DEPTH, RunOptions, scripted
 
 GROUPS = {"run": "time and results", "motion": "ground motion"}
 """Titles of groups of options in the help, after the main ones."""
-NUMBER = re.compile(r"-(\d|\.\d|inf|nan)")
-"""Beginning of a negative number, which is no option."""
+NUMBER = re.compile(r"-(\d|\.\d|inf|nan)")  # beginning of a negative number, which is no option
 
 
 class _Parser(argparse.ArgumentParser):

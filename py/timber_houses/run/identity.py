@@ -3,8 +3,7 @@
 package. Needs no YADE.
 
 `made_from` stands in summary.json; a study repeats a run whose `made_from` has changed. Checkpoint and frames carry
-`identity`, which allows another duration and moved house and record files.
-"""
+`identity`, which allows another duration and moved house and record files."""
 import json
 from functools import cache
 from hashlib import sha256
@@ -28,7 +27,10 @@ DISPLAY = ("base/colors.py", "scene/viewer.py", "run/progress.py", "recording/en
 def made_from(options):
     """Content of `made_from` in summary.json. options: RunOptions"""
     try:
-        files = of_files(_input_files(options))
+        records = [options.record] if options.record else []
+        records += [record for record, _ in following(options.then, "then")] if options.then else []
+        files = of_files([*filter(None, [options.town]), *house_files(house_path(options.house)),
+                          *(file for record in records for file in find_files(record))])
     except (InputError, OSError):
         files = None  # the run itself reports the fault
     return {"options": options.decisive(), "files": files, "package": package()}
@@ -48,14 +50,6 @@ def identity(origin):
     return {**shared, "package": origin["package"]}
 
 
-def _input_files(options):
-    """Town file, house file with those that it extends, and records."""
-    records = [options.record] if options.record else []
-    records += [record for record, _ in following(options.then, "then")] if options.then else []
-    return [*filter(None, [options.town]), *house_files(house_path(options.house)),
-            *(file for record in records for file in find_files(record))]
-
-
 @cache
 def package():
     """Fingerprint of both packages: compiled module, Python files that decide results, shipped data."""
@@ -70,11 +64,7 @@ def decisive_files(folder):
     return [path for path in paths if path.is_file() and path.relative_to(folder).as_posix() not in DISPLAY]
 
 
-# --- fingerprints: 16 hexadecimal digits ------------------------------------------------------------------------------
-
-
 def of_arrays(arrays):
-    """Of numpy arrays: types, shapes and bits."""
     total = sha256()
     for array in arrays:
         total.update(f"{array.shape}{array.dtype}".encode())

@@ -14,11 +14,9 @@ from ..scene import viewer
 from .progress import Status
 from .runner import Run
 
-TAG = "yade-timber run"
-"""Tag of the scene: the run that it belongs to."""
+TAG = "yade-timber run"  # tag of the scene: the run that it belongs to
 O = yw.Omega()
-live = None
-"""The LiveRun of this session that records frames."""
+live = None  # the LiveRun of this session that records frames
 
 
 class LiveRun(Run):
@@ -26,6 +24,7 @@ class LiveRun(Run):
 
     def start(self, folder_lock):
         """Run in the background, with a view if possible. folder_lock: ExitStack, closed after the results"""
+        global live
         self._folder_lock, self._since = folder_lock, time.perf_counter()
         if O.iter >= self.steps:
             self._end()
@@ -33,17 +32,12 @@ class LiveRun(Run):
         O.tags[TAG] = self.tag = uuid.uuid4().hex
         viewer.show()
         self._status = Status(self.observer)
-        self._record_frames()
-        O.run(self.steps - O.iter)
-        threading.Thread(target=self._watch, daemon=True).start()
-
-    def _record_frames(self):
-        """Append an engine that calls `record_frame` in the step to each frame, behind RestSkipper."""
-        global live
-        live = self
+        live = self  # whose `record_frame` an engine behind RestSkipper calls in the step to each frame
         before = O.iter // self.chunk * self.chunk - 1  # the step that led to the last frame
         command = f"import {__name__}; {__name__}.record_frame()"
         O.engines = O.engines + [yw.PyRunner(command=command, iterPeriod=self.chunk, iterLast=before, nDone=1)]
+        O.run(self.steps - O.iter)
+        threading.Thread(target=self._watch, daemon=True).start()
 
     def _watch(self):
         while self.is_loaded() and O.iter < self.steps:

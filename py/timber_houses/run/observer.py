@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The scene in YADE -> descriptions and states of the recording's types.
 
-Element k of the HouseModel is body k of the scene, joint k is joint k of the JointEngine.
-"""
+Element k of the HouseModel is body k of the scene, joint k is joint k of the JointEngine."""
 import json
 import math
 
@@ -18,27 +17,25 @@ from ..motion import GroundMotion, displacement
 from ..recording import frames
 from ..recording.damage import SIDES, DamageSurvey, Level, State
 from ..recording.events import Collapse, EventLog, FirstBreak, OwnWeight, StructureFallen, Tilt
+from ..recording.history import DIRECTIONS
 from ..recording.judge import Judge, Judged
+from ..recording.quantities import AXES
 from ..recording.samples import Samples
-from ..recording.summary_parts import ModesAt
+from ..recording.summary_parts import Mode, ModesAt
 from ..recording.verdict import UNDAMAGED
+from ..scene.modes import natural_modes
 from ..scene.scenario import level_marks, sampled_columns
-from .modal import modes_now
 
-SETTLED = 1.0
-"""Time at which the house has settled under its weight, and its first natural modes are taken. [s]"""
-HARMFUL = 0.5
-"""Ground acceleration that damages no sound house: half of the design earthquake. [m/s2]"""
-SPENT = 0.2
-"""Ground acceleration that moves no wreck: friction holds 2 m/s2 and more. [m/s2]"""
-REST_SPEED = 0.02
-"""Largest speed of a body at rest in a wreck: its sway in such a ground motion stays below. [m/s]"""
-ROLLING = 0.01
-"""Share of the free mass that may still move in a wreck at rest: single members that roll away. [-]"""
-REST_TIME = 3.0
-"""A run ends when its wreck has been at rest for so long, and the motion is spent. [s]"""
-BREAKS = ("time", "joint", "spring", "cause", "force")
-"""Attributes of a JointBreak, columns of frames.h5's /breaks."""
+SETTLED = 1.0  # time at which the house has settled under its weight, and its first natural modes are taken. [s]
+HARMFUL = 0.5  # ground acceleration that damages no sound house: half of the design earthquake. [m/s2]
+SPENT = 0.2  # ground acceleration that moves no wreck: friction holds 2 m/s2 and more. [m/s2]
+REST_SPEED = 0.02  # largest speed of a body at rest in a wreck: its sway in such a ground motion stays below. [m/s]
+ROLLING = 0.01  # share of the free mass that may still move in a wreck at rest: single members that roll away. [-]
+REST_TIME = 3.0  # a run ends when its wreck has been at rest for so long, and the motion is spent. [s]
+ROUNDING = 1e-6
+"""Displacement of the levels over the largest one of a mode in which they do not move [-]: rounding gives 1e-15,
+modes of a house 0.6 and more."""
+BREAKS = ("time", "joint", "spring", "cause", "force")  # attributes of a JointBreak, columns of frames.h5's /breaks
 O = yw.Omega()
 
 
@@ -55,7 +52,6 @@ def describe_elements(model):
 
 
 def describe_joints(model):
-    """frames.Joints of the scene."""
     sheets = sheet_numbers(model)
     specs, joints = model.joints, list(find_engine(yw.JointEngine).joints)
     described = record.describe_joints(joints, range(len(model.elements)))
@@ -66,7 +62,6 @@ def describe_joints(model):
 
 
 def describe_sheets(model):
-    """frames.Sheets of the house."""
     number, sheets = element_numbers(model), list(sheet_numbers(model))
     ends = (np.array([number[getattr(sheet, end)] for sheet in sheets], "i4") for end in ("low", "high"))
     return frames.Sheets([sheet.type for sheet in sheets], [sheet.opening for sheet in sheets], *ends)
@@ -104,7 +99,6 @@ def versions():
 
 
 def element_numbers(model):
-    """{name of an element: its number}."""
     return {element.name: k for k, element in enumerate(model.elements)}
 
 
@@ -145,6 +139,23 @@ def moving_share():
     return sum(mass for mass, speed in free if speed > REST_SPEED) / sum(mass for mass, _ in free)
 
 
+def modes_now(levels):
+    """ModesAt of the scene as it is now; an unstable mode has no period. levels: of the main structure."""
+    mass = sum(b.state.mass for b in O.bodies if b is not None and not b.state.blockedDOFs)
+    modes = []
+    for mode in natural_modes():
+        share = {axis: round(float(mode.mass[AXES[axis]] / mass), 4) for axis in DIRECTIONS}
+        moved = np.array([level.displacement(mode.shape[:, :3]) for level in levels])
+        largest = max(moved[:, :2].flat, key=abs, default=1.0)
+        if abs(largest) < ROUNDING * abs(mode.shape[:, :3]).max():  # of another structure
+            continue
+        shape = {f"storey{k}": {axis: round(float(row[AXES[axis]] / largest), 4) for axis in DIRECTIONS}
+                 for k, row in enumerate(moved, 1)}
+        period = round(mode.period, 4) if mode.omega2 > 0 else None
+        modes.append(Mode(period_s=period, direction=max(share, key=share.get), mass_share=share, shape=shape))
+    return ModesAt(time_s=round(O.time, 6), modes=modes)
+
+
 class Observer:
     """Notes events, drifts of structures and first natural modes of the run. progress: of a checkpoint"""
 
@@ -155,8 +166,7 @@ class Observer:
         judged = decode(dict[str, Judged], progress["judged"]) if progress else None
         self.judge = Judge(self.survey.levels, [(e.group, e.storey) for e in sampled_columns(model)], judged)
         self.columns = tuple(find_engine(yw.Sampler).columns())
-        self.fresh = []
-        """[(n, W) arrays]: rows of the Sampler that are in no file yet."""
+        self.fresh = []  # [(n, W) arrays]: rows of the Sampler that are in no file yet
         self._past = [(O.time, encode(self.judge.structures))]
         self.modes = decode(ModesAt | None, progress["modes"]) if progress else None
         self.upright = progress["upright"] if progress else (0.0, [])
@@ -189,7 +199,6 @@ class Observer:
 
     @property
     def main_levels(self):
-        """damage.Level of the main structure, from below."""
         return [level for level in self.survey.levels if level.structure == self.survey.structures[0]]
 
     @property

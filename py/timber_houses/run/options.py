@@ -14,14 +14,10 @@ from ..house.layout import MAX_SNOW
 from ..motion import GroundMotion, MotionRequest
 from .identity import of_arrays, of_values
 
-SNOW_DEPTH = 1.0
-"""Snow on the roof of the snow runs. [m] (paper, section 3.4)"""
-QUIET_DURATION = 30.0
-"""Simulated time of runs without an earthquake. [s] (paper, section 4.2)"""
-MOST_RUNS = 999
-"""Largest number of runs of an ensemble."""
-MOST_SEED = 2**32 - 1
-"""Largest seed of a disturbance."""
+SNOW_DEPTH = 1.0  # snow on the roof of the snow runs. [m] (paper, section 3.4)
+QUIET_DURATION = 30.0  # simulated time of runs without an earthquake. [s] (paper, section 4.2)
+MOST_RUNS = 999  # largest number of runs of an ensemble
+MOST_SEED = 2**32 - 1  # largest seed of a disturbance
 EXCLUDED_BY_ENSEMBLE = {
     "resume": "an ensemble always continues", "or_anew": "an ensemble repeats runs that cannot be continued",
     "export": "it writes the scene of one run", "disturb": "the runs of an ensemble have the seeds 2 to N",
@@ -31,9 +27,8 @@ EXCLUDED_BY_ENSEMBLE = {
 
 @dataclass(frozen=True)
 class OptionSource:
-    """Where options come from. name: function that names an option; earthquake: remedy without an earthquake;
-    pictures: function that gives the command for the pictures of a folder
-    """
+    """Where options come from. name: function that names an option; earthquake: remedy without an earthquake; pictures:
+    function that gives the command for the pictures of a folder"""
 
     name: Callable = command_option
     earthquake: str = "add --quake or --record FILE"
@@ -45,10 +40,8 @@ SCRIPT = OptionSource(earthquake="use a script of a run with an earthquake")
 
 @dataclass(frozen=True)
 class RunOptions(MotionRequest):
-    """Options of a run, those of its ground motion included.
-
-    name: of a run whose script gives BY_SCRIPT, or of a lot; town: its file; ground_motion: in place of a record.
-    """
+    """Options of a run, those of its ground motion included. name: of a run whose script gives BY_SCRIPT, or of a lot;
+    town: its file; ground_motion: in place of a record."""
 
     house: str = option(str, f"house or BTLx file, or a shipped house: {', '.join(shipped_houses())}", "HOUSE",
                         group="main")

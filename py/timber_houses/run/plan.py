@@ -19,20 +19,22 @@ class TownPlan:
     record: object
 
 
+@noted()
 def planned(options):
     """Scenario, or TownPlan of a town. Raises HouseError, RecordError."""
-    with noted():
-        return _planned(options)
-
-
-def _planned(options):
     motion = options.requested_motion()
     if options.town is None:
         return _scenario(options, motion)
     town = load_town(options.town)
     delays = town.delays()
     last = max(delays) if motion else 0.0
-    lots = [_lot(options, lot, motion, delay, last) for lot, delay in zip(town.lots, delays)]
+    lots = []
+    for lot, delay in zip(town.lots, delays):
+        own = replace(options, name=f"{options.title}.{lot.name}", house=lot.house,
+                      snow=options.snow if lot.snow is None else lot.snow,
+                      out=options.folder / "lots" / lot.name, no_views=True, quiet=True)
+        scenario = _scenario(own, motion and in_axes(motion, lot.axes), delay, last)
+        lots.append((replace(scenario, lot=lot.name), own))
     return TownPlan(town, lots, motion and record(motion, options.factor, options.dt))
 
 
@@ -63,11 +65,3 @@ def record(motion, scale, dt, delay=0.0):
 
 def _scaled(accelerations, scale):
     return {axis: round(scale * value, 6) for axis, value in accelerations.items()}
-
-
-def _lot(options, lot, motion, delay, last):
-    """(Scenario, RunOptions) of a lot. options, motion: of the town"""
-    snow = options.snow if lot.snow is None else lot.snow
-    own = replace(options, name=f"{options.title}.{lot.name}", house=lot.house, snow=snow,
-                  out=options.folder / "lots" / lot.name, no_views=True, quiet=True)
-    return replace(_scenario(own, motion and in_axes(motion, lot.axes), delay, last), lot=lot.name), own

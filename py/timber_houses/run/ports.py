@@ -21,8 +21,7 @@ def close_servers():
     that end them.
 
     YADE has no option for this. Both listen on all network interfaces: the prompt asks for a cookie of six letters, the
-    other one lets anybody stop a run. Jobs of yade-batch, which reads their progress there, keep the XML-RPC server.
-    """
+    other one lets anybody stop a run. Jobs of yade-batch, which reads their progress there, keep the XML-RPC server."""
     handlers = ["PythonConsoleSocketEmulator"] + ["SimpleXMLRPCRequestHandler"] * ("PARAM_TABLE" not in os.environ)
     threads = []
     for server in gc.get_objects():

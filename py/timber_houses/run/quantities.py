@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Quantities of the run that is loaded in YADE: storey shears, accelerations, peaks of joints and column feet.
 
-Element k of the HouseModel is body k of the scene, joint k is joint k of the JointEngine and of the Sampler.
-"""
+Element k of the HouseModel is body k of the scene, joint k is joint k of the JointEngine and of the Sampler."""
+from collections import namedtuple
 from dataclasses import dataclass
 from operator import attrgetter
-from typing import NamedTuple
+from typing import Any
 
 import numpy as np
 import yade.wrapper as yw
@@ -19,16 +19,11 @@ from ..recording.history import DIRECTIONS
 from ..recording.summary_parts import (LargestForce, LargestUplift, LargestUtilisation, Modes, Quantities, Shear,
                                        StoreyQuantities)
 from . import observer
-from .modal import modes_now
 
 JOINTS, COLUMNS = "joints.csv", "columns.csv"
-NAMES = (quantities.NAME, JOINTS, COLUMNS)
-"""Files that `Tables.write` makes."""
+NAMES = (quantities.NAME, JOINTS, COLUMNS)  # files that `Tables.write` makes
 AXES = quantities.AXES
 O = yw.Omega()
-
-
-# --- storeys ----------------------------------------------------------------------------------------------------------
 
 
 def part_masses(observed):
@@ -41,7 +36,6 @@ def part_masses(observed):
 
 
 def storeys(observed, samples):
-    """recording.quantities.Storeys of the run."""
     momenta = samples.momenta(slice(len(observed.survey.levels), None))
     return quantities.storeys(momenta, part_masses(observed), observer.describe_motion())
 
@@ -74,44 +68,15 @@ def _shears(table, name):
     return Shear(sustained=sustained, peak=peak)
 
 
-# --- joints and columns -----------------------------------------------------------------------------------------------
-
-
-class JointRow(NamedTuple):
-    """Row of joints.csv. per: 'point' or 'joint'; broken: number of springs"""
-
-    name: str
-    kind: str
-    storey: str
-    side: str
-    utilisation: float
-    pull: float
-    shear: float
-    opening: float
-    strength: float
-    per: str
-    broken: int
-    state: str
-
-
-class ColumnRow(NamedTuple):
-    """Row of columns.csv."""
-
-    name: str
-    structure: str
-    storey: int
-    east: float
-    north: float
-    uplift: float
-    pull: float
-    utilisation: float
-    state: str
-
-
-JOINT_HEADER = (*("joint", "kind", "storey", "side", "utilisation [-]", "pull [N]", "shear [N]", "opening [m]"),
-                *("strength [N]", "strength of", "broken springs [-]", "state"))
-COLUMN_HEADER = ("column", "structure", "storey", "east [m]", "north [m]", "uplift [m]", "pull [N]", "utilisation [-]",
-                 "state")
+JOINT_HEADER = {"name": "joint", "kind": "kind", "storey": "storey", "side": "side", "utilisation": "utilisation [-]",
+                "pull": "pull [N]", "shear": "shear [N]", "opening": "opening [m]", "strength": "strength [N]",
+                "per": "strength of", "broken": "broken springs [-]", "state": "state"}
+COLUMN_HEADER = {"name": "column", "structure": "structure", "storey": "storey", "east": "east [m]",
+                 "north": "north [m]", "uplift": "uplift [m]", "pull": "pull [N]", "utilisation": "utilisation [-]",
+                 "state": "state"}
+"""{attribute of a row: column} of joints.csv and columns.csv."""
+JointRow: Any = namedtuple("JointRow", JOINT_HEADER)
+ColumnRow: Any = namedtuple("ColumnRow", COLUMN_HEADER)
 
 
 def joint_rows(observed, peaks):
@@ -145,9 +110,6 @@ def column_feet(observed):
     return sorted(rows, key=lambda row: -row.uplift)
 
 
-# --- summary and files ------------------------------------------------------------------------------------------------
-
-
 @dataclass(frozen=True)
 class Tables:
     """Content of the files. peaks: (load [-], pull [N], shear [N], opening [m]) of the joints in their order; joints:
@@ -170,8 +132,8 @@ class Tables:
     def write(self, folder):
         """Write storeys.csv, joints.csv, columns.csv; returns their paths. Raises OSError."""
         self.storeys.write(folder / quantities.NAME)
-        write_text(folder / JOINTS, csv_text(JOINT_HEADER, self.joints))
-        write_text(folder / COLUMNS, csv_text(COLUMN_HEADER, self.columns))
+        write_text(folder / JOINTS, csv_text(JOINT_HEADER.values(), self.joints))
+        write_text(folder / COLUMNS, csv_text(COLUMN_HEADER.values(), self.columns))
         return [folder / name for name in NAMES]
 
 
@@ -190,7 +152,7 @@ def summarised(tables, observed):
     return Quantities(
         until_s=fall,
         modes=Modes(before=observed.modes,
-                    after=None if collapsed or observed.modes is None else modes_now(observed.main_levels)),
+                    after=None if collapsed or observed.modes is None else observer.modes_now(observed.main_levels)),
         **storey_peaks(tables.storeys.until(fall) if collapsed else tables.storeys, part_masses(observed)),
         largest_utilisation=_largest(LargestUtilisation, tables.joints, "utilisation", "joint", "value", 4),
         largest_pull=_largest(LargestForce, breakable, "pull", "joint", "force"),

@@ -70,9 +70,8 @@ class Recorder:
             self.described = True
 
     def finish(self, summary, history, tables):
-        """Write all frames up to now and the results into one file; returns the Frames. The run may go on.
-        summary: Summary; tables: quantities.Tables. Raises OSError.
-        """
+        """Write all frames up to now and the results into one file; returns the Frames. The run may go on. summary:
+        Summary; tables: quantities.Tables. Raises OSError."""
         entries = list(find_engine(yw.JointEngine).breaks)
         breaks = {name: [getattr(entry, name) for entry in entries] for name in observer.BREAKS}
         breaks["cause"] = [observer.cause_of(entry, self.model) for entry in entries]

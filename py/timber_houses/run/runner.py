@@ -23,8 +23,7 @@ from .recorder import Recorder
 from .samples import SampleFile
 
 STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM)
-HOUSES = "houses.csv"
-"""Table of a town's houses."""
+HOUSES = "houses.csv"  # table of a town's houses
 RECORDED, STATE = (frames.NAME, frame_log.NAME), (checkpoint.NAME, samples.NAME)
 """Files of the frames, and of what a resumed run continues from."""
 O = yw.Omega()
@@ -173,9 +172,8 @@ class Run(Stoppable):
         self.write()
 
     def next_stop(self):
-        """Step of the next frame. The last checkpoint is one step before the end: energies and contact points are
-        known only after a step, so a resumed run has one to make.
-        """
+        """Step of the next frame. The last checkpoint is one step before the end: energies and contact points are known
+        only after a step, so a resumed run has one to make."""
         left = self.steps - O.iter
         return O.iter + min(max(1, left - 1), self.chunk - O.iter % self.chunk)
 
@@ -190,7 +188,9 @@ class Run(Stoppable):
             return
         if O.iter % self.chunk == 0:
             self.take(O.time)
-        if self.signal or O.iter == self.steps - 1 or self._checkpoint_due():
+        every = max(1, round(self.options.checkpoint / self.scenario.dt))
+        is_due = self.options.checkpoint > 0 and O.iter // every > self.last_saved // every
+        if self.signal or O.iter == self.steps - 1 or is_due:
             self.save()
         if self.signal:
             raise Interrupted(self.signal, O.time)
@@ -215,29 +215,20 @@ class Run(Stoppable):
                 O.step()
         self.wall_s += time.perf_counter() - since
 
-    def _checkpoint_due(self):
-        if self.options.checkpoint == 0:
-            return False
-        every = max(1, round(self.options.checkpoint / self.scenario.dt))
-        return O.iter // every > self.last_saved // every
-
     def save(self):
         """Save a checkpoint, unless switched off. Frames are saved first: those after a checkpoint can be dropped."""
-        if self.options.checkpoint > 0:
-            with os_errors(self._unsaved):
-                if self.recorder:
-                    self.recorder.save()
-                self.observer.read_samples()
-                progress = {"wall_s": self.wall_s, "samples": self.samples.save(self.observer),
-                            **self.observer.progress()}
-                checkpoint.save(self.checkpoint_path, self.identity, progress)
-            self.last_saved = O.iter
-
-    def _unsaved(self, fault):
+        if self.options.checkpoint == 0:
+            return
         remedy = ("the previous checkpoint is intact, continue with --resume" if self.checkpoint_path.exists()
                   else "there is no earlier one")
-        stop = f"the checkpoint cannot be written ({fault}); the run stops at {O.time:.2f} s, {remedy}"
-        return f"{self.options.folder}: {stop}"
+        with os_errors(lambda fault: f"{self.options.folder}: the checkpoint cannot be written ({fault}); the run stops"
+                                     f" at {O.time:.2f} s, {remedy}"):
+            if self.recorder:
+                self.recorder.save()
+            self.observer.read_samples()
+            progress = {"wall_s": self.wall_s, "samples": self.samples.save(self.observer), **self.observer.progress()}
+            checkpoint.save(self.checkpoint_path, self.identity, progress)
+        self.last_saved = O.iter
 
     # --- results ------------------------------------------------------------------------------------------------------
 
@@ -280,7 +271,6 @@ class Run(Stoppable):
 
 
 def explain_writing(options):
-    """Context for writing results. Raises RunError."""
     folder, remedy = options.folder, "repeat the command with --resume"
     return os_errors(lambda fault: f"{folder}: the results cannot be written ({fault}); {remedy}")
 
@@ -295,7 +285,6 @@ def clear(options, *more):
 
 @contextmanager
 def explain_removal(options):
-    """Context for removing files. Raises RunError."""
     try:
         yield
     except OSError as problem:

@@ -12,8 +12,7 @@ from ..recording.samples import Samples
 from . import checkpoint
 
 NAME = "samples.log"
-ROWS = b"V"
-"""Kind of the records: rows of the Sampler, float64."""
+ROWS = b"V"  # kind of the records: rows of the Sampler, float64
 O = yw.Omega()
 
 

@@ -24,8 +24,7 @@ from . import observer, quantities
 
 CREATED, NEGLIGIBLE = 1e-4, 1e-3
 """Admissible energy created by contacts and joints, as a share of the input [-], and what is always admissible [J]."""
-NAMES = (NAME, HISTORY, BREAKS, *quantities.NAMES)
-"""Files that `write` makes."""
+NAMES = (NAME, HISTORY, BREAKS, *quantities.NAMES)  # files that `write` makes
 O = yw.Omega()
 
 
@@ -43,7 +42,8 @@ def summary(scenario, observed, histories, tables, wall_s, made_from, cut_off=No
     structures = structures_of(observed, state, ends)
     created = compiled.created_energy()
     energy = (energy_balance(queries.energy(), created) if cut_off is None
-              else energy_balance(last_energies(history), _finite(created)))
+              else energy_balance({name: float(history.energy(name)[-1]) if history.samples else 0.0
+                                   for name in compiled.energy()}, created if math.isfinite(created) else None))
     draft = Summary(
         scenario=scenario.name, lot=scenario.lot, model=model.name,
         description=model.description,
@@ -87,20 +87,13 @@ def judged(draft):
     return replace(draft, diagnosis=replace(draft.diagnosis, disagreement=comparison(draft)), sentence=sentence(draft))
 
 
-def last_energies(history):
-    """Terms of `queries.energy` in the last sample of a History; zero without one."""
-    return {name: float(history.energy(name)[-1]) if history.samples else 0.0 for name in compiled.energy()}
-
-
 def energy_balance(terms, created):
     """The part `energy` [J] from the terms of `queries.energy`. created: `compiled.created_energy()`, None if unknown
 
     input: work of the ground motion, energy of imposed velocities and potential energy released by gravity since the
     start. residual: stored, kinetic and dissipated energy minus the input; residual_fraction: its absolute value over
-    the input, None without input.
-    created: energy that contact points and joints returned beyond what they had stored; contained in `residual`.
-    Raises RunError for numbers that are not finite.
-    """
+    the input, None without input. created: energy that contact points and joints returned beyond what they had stored;
+    contained in `residual`. Raises RunError for numbers that are not finite."""
     terms = {"ground_motion": 0.0, IMPOSED: 0.0, **dict.fromkeys(DISSIPATED, 0.0), **terms}
     supplied = terms["ground_motion"] + terms[IMPOSED] - terms["gravity"]
     residual = queries.energy_residual(terms)
@@ -135,24 +128,14 @@ def created_too_much(energy):
             f" {CREATED:g}); try a smaller --dt")
 
 
-def _finite(value):
-    """A number for JSON: None for NaN, as a time that has not come, and infinity."""
-    return value if math.isfinite(value) else None
-
-
-# --- files ------------------------------------------------------------------------------------------------------------
-
-
-def breaks_text(model):
-    """Text of breaks.csv: every spring that broke, in order."""
-    header = ("time [s]", "joint", "kind", "storey", "side", "spring", "cause", "force [N]")
-    return csv_text(header, (observer.break_row(entry, model) for entry in find_engine(yw.JointEngine).breaks))
+BREAKS_HEADER = ("time [s]", "joint", "kind", "storey", "side", "spring", "cause", "force [N]")
 
 
 def write(folder, result, history, tables, model):
     """Write all files, the summary last: where it is, the others are complete. Returns paths. Raises OSError."""
-    paths = tables.write(folder)
-    for name, text in ((HISTORY, history.text()), (BREAKS, breaks_text(model))):
+    paths, breaks = tables.write(folder), find_engine(yw.JointEngine).breaks
+    broken = csv_text(BREAKS_HEADER, (observer.break_row(entry, model) for entry in breaks))
+    for name, text in ((HISTORY, history.text()), (BREAKS, broken)):
         write_text(folder / name, text)
         paths.append(folder / name)
     return [*paths, result.write(folder)]

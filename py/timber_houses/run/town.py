@@ -2,8 +2,7 @@
 """A town in this YADE process: a Run for each lot, in a scene and a folder of its own, on all threads.
 
 The houses do not act on each other. Each scene is computed from frame to frame before the next one, so that its data
-stay in the processor's cache: time and memory per element do not depend on the number of houses.
-"""
+stay in the processor's cache: time and memory per element do not depend on the number of houses."""
 from contextlib import contextmanager
 
 import yade.runtime
@@ -63,8 +62,6 @@ class TownRun(Stoppable):
         finally:
             compiled.swap_scene(before)
 
-    # --- steps --------------------------------------------------------------------------------------------------------
-
     def complete(self):
         """All remaining steps, then the results. Lots whose physics fails end there; the others go on. Raises
         PhysicsError at the end, Interrupted after a signal."""
@@ -110,8 +107,6 @@ class TownRun(Stoppable):
             raise Interrupted(self.signal, max(scene.time for scene in self.scenes))
         return left
 
-    # --- results ------------------------------------------------------------------------------------------------------
-
     def write(self):
         """Write the results of all lots, the table of houses, and the pictures of the town. Raises PhysicsError of the
         first lot that was cut off."""
@@ -148,7 +143,12 @@ class TownRun(Stoppable):
     @property
     def summary(self):
         """TownSummary."""
-        results = {lot.name: (run.summary, lot.axes, result_of(lot, run)) for lot, run in self.lots}
+        results = {}
+        for lot, run in self.lots:
+            outlines = [part.round(3).tolist() for part in lot.outlines(run.model)]
+            result = {"en": sentence(run.summary), "ja": japanese.result(run.summary)}
+            one = LotResult(lot.name, run.summary.model, run.summary.verdict, outlines, result)
+            results[lot.name] = run.summary, lot.axes, one
         return recording.summary(self.town.name, results, self.record)
 
     def table(self):
@@ -170,13 +170,6 @@ COLUMNS = ("lot", "house", "x [m]", "y [m]", "rotation [degrees]", "snow [m]", "
 """Of houses.csv."""
 
 
-def result_of(lot, run):
-    """LotResult of a Lot and its Run."""
-    outlines = [part.round(3).tolist() for part in lot.outlines(run.model)]
-    result = {"en": sentence(run.summary), "ja": japanese.result(run.summary)}
-    return LotResult(lot.name, run.summary.model, run.summary.verdict, outlines, result)
-
-
 @contextmanager
 def end_alone(run):
     """Context in which a PhysicsError ends this Run alone."""
@@ -188,7 +181,6 @@ def end_alone(run):
 
 @contextmanager
 def name_lot(lot):
-    """Context in which errors name the lot."""
     try:
         yield
     except InputError as problem:

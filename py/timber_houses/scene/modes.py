@@ -9,8 +9,7 @@ Yielding joints have the stiffness with which they unload; walls that have not y
 line of their envelope.
 
 Free motions are left out: of bodies that no springs join to a fixed body, and slower than SLOWEST.
-Modes of equal omega^2 have shapes by convention, so that a scene has one result, whatever was computed before.
-"""
+Modes of equal omega^2 have shapes by convention, so that a scene has one result, whatever was computed before."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,10 +21,8 @@ from yade_timber.plugin import compiled
 from yade_timber.scene.background import between_steps
 from yade_timber.scene.engines import find_engine
 
-SHIFT = -1.0
-"""Eigenvalues nearest to this are found first [1/s2]; below zero, since a wreck has many at zero."""
-SEARCHED = 40
-"""Number of modes that are looked at. [-]"""
+SHIFT = -1.0  # eigenvalues nearest to this are found first [1/s2]; below zero, since a wreck has many at zero
+SEARCHED = 40  # number of modes that are looked at. [-]
 SLOWEST = 60.0
 """Longest period of a mode, and longest 2 pi / sqrt(-omega^2) of an unstable one [s]; slower motions are free.
 Observed: unbraced frames up to 4 s, rounding of free motions 1e8 s."""
@@ -68,7 +65,9 @@ def springs(initial=False):
     arm, stiffness = values[:, :6].reshape(-1, 2, 3), values[:, 9:11]
     engine = find_engine(yw.JointEngine)
     if initial and engine is not None:
-        shares = np.array([_initial_share(joint) for joint in engine.joints])[joint_of_springs(engine.joints)]
+        lines = [joint.envelope[0] if joint.law == "wall" else (1.0, np.inf) for joint in engine.joints]
+        shares = np.array([min(1.0, force / stretch / joint.kn) for (stretch, force), joint
+                           in zip(lines, engine.joints)])[joint_of_springs(engine.joints)]
         stiffness = stiffness * np.concatenate([np.ones(len(stiffness) - len(shares)), shares])[:, None]
     return Springs(np.frombuffer(pairs, "i4").reshape(-1, 2), arm, values[:, 6:9], stiffness, values[:, 11:])
 
@@ -78,28 +77,23 @@ def joint_of_springs(joints):
     return np.repeat(np.arange(len(joints)), [len(joint.broken) - sum(joint.broken) for joint in joints])
 
 
-def _initial_share(joint):
-    """Stiffness of a TimberJoint at no drift over that with which it unloads: of walls, which are elastic there. [-]"""
-    if joint.law != "wall":
-        return 1.0
-    stretch, force = joint.envelope[0]
-    return min(1.0, force / stretch / joint.kn)
-
-
 @between_steps()
 def natural_modes(share=0.05, bodies=None, initial=False):
     """Modes of effective mass east or north >= `share` of the free mass, unstable ones and long periods first.
 
     Only the SEARCHED lowest modes are looked at. Empty without springs. bodies: ids of those that move, default all;
-    initial: as in springs()
-    """
+    initial: as in springs()"""
     free = [b for b in O.bodies if b is not None and not b.state.blockedDOFs and (bodies is None or b.id in bodies)]
     mass, linearised = sum(b.state.mass for b in free), springs(initial)
     free = _held(linearised, free)
     if not free:
         return []
     rows = {b.id: k for k, b in enumerate(free)}
-    K, M = stiffness_matrix(linearised, rows, len(free)), mass_matrix(free)
+    blocks = []  # masses [kg] and inertias in the world frame [kg m2]
+    for b in free:
+        axes = np.array(b.state.ori.toRotationMatrix())
+        blocks += [b.state.mass * np.eye(3), axes @ np.diag(b.state.inertia) @ axes.T]
+    K, M = stiffness_matrix(linearised, rows, len(free)), sparse.block_diag(blocks, "csc")
     omega2, vectors = _vibrations(K, M)
     ground = np.tile(np.eye(6)[:, :3], (len(free), 1))  # unit translations
     modes = []
@@ -150,21 +144,11 @@ def _by_convention(vectors, momentum):
     """Shapes (n, k) of modes of one omega^2, of which any rotation is a solution.
 
     The first has all of the effective mass in the direction where that is largest, the second all that is left in the
-    next direction, and so on. vectors (n, k); momentum (n, 3): of unit velocities of the ground
-    """
+    next direction, and so on. vectors (n, k); momentum (n, 3): of unit velocities of the ground"""
     shares = vectors.T @ momentum
     size = np.linalg.norm(shares, axis=0)
     directions = np.argsort(-np.round(size / max(size.max(), 1e-300), 6), kind="stable")
     return vectors @ np.linalg.qr(shares[:, directions], mode="complete")[0]
-
-
-def mass_matrix(free):
-    """(6n, 6n) sparse block-diagonal matrix of masses [kg] and of inertias in the world frame [kg m2]."""
-    blocks = []
-    for b in free:
-        axes = np.array(b.state.ori.toRotationMatrix())
-        blocks += [b.state.mass * np.eye(3), axes @ np.diag(b.state.inertia) @ axes.T]
-    return sparse.block_diag(blocks, "csc")
 
 
 def stiffness_matrix(linearised, rows, count):
@@ -183,7 +167,12 @@ def stiffness_matrix(linearised, rows, count):
     for e, sign in ((0, -1), (1, 1)):
         blocks.append(_geometric(linearised.arm[:, e], sign * linearised.force))
         places.append(number[:, [e, e]])
-    return _assembled(np.concatenate(blocks), np.concatenate(places), count)
+    place, inner = np.concatenate(places), np.arange(6)
+    free = (place >= 0).all(1)  # without blocks of fixed bodies
+    block, place = np.concatenate(blocks)[free], place[free]
+    row = np.broadcast_to(6 * place[:, 0, None, None] + inner[:, None], block.shape)
+    column = np.broadcast_to(6 * place[:, 1, None, None] + inner, block.shape)
+    return sparse.coo_matrix((block.ravel(), (row.ravel(), column.ravel())), shape=(6 * count, 6 * count)).tocsc()
 
 
 def _geometric(arm, force):
@@ -192,13 +181,3 @@ def _geometric(arm, force):
     outer, along = arm[:, :, None] * force[:, None, :], np.einsum("pi,pi->p", arm, force)
     block[:, 3:, 3:] = along[:, None, None] * np.eye(3) - (outer + outer.transpose(0, 2, 1)) / 2
     return block
-
-
-def _assembled(blocks, places, count):
-    """Sparse matrix of (P, 6, 6) blocks at block places (P, 2), without those of fixed bodies (-1)."""
-    free = (places >= 0).all(1)
-    blocks, places = blocks[free], places[free]
-    inner = np.arange(6)
-    row = np.broadcast_to(6 * places[:, 0, None, None] + inner[:, None], blocks.shape)
-    column = np.broadcast_to(6 * places[:, 1, None, None] + inner, blocks.shape)
-    return sparse.coo_matrix((blocks.ravel(), (row.ravel(), column.ravel())), shape=(6 * count, 6 * count)).tocsc()

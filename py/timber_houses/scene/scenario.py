@@ -19,8 +19,7 @@ from ..house.errors import StepError
 from ..house.friction import own_coefficient
 from . import sway
 
-SETTLING = 0.2
-"""Time in which a house comes to rest under its weight before its sway modes are computed. [s]"""
+SETTLING = 0.2  # time in which a house comes to rest under its weight before its sway modes are computed. [s]
 O = yw.Omega()
 
 
@@ -30,12 +29,10 @@ class Scenario:
     None; snow_depth [m].
 
     scale: factor on the motion [-]; delay: time at which it begins [s]; dt, duration [s]; until_collapse, until_rest:
-    whether a collapse ends the run, whether the rest of its wreck does; joint_damping: ratio of sway and joints
-    [-], wall_level: of walls of a rated
-    multiplier, None for both: the house's own; disturb: seed of the house's disturbance, None: none; options: of
-    `engines.engines`; record, other_walls: of the summary, on the motion and on walls of the other level; lot: of a
-    town.
-    """
+    whether a collapse ends the run, whether the rest of its wreck does; joint_damping: ratio of sway and joints [-],
+    wall_level: of walls of a rated multiplier, None for both: the house's own; disturb: seed of the house's
+    disturbance, None: none; options: of `engines.engines`; record, other_walls: of the summary, on the motion and on
+    walls of the other level; lot: of a town."""
 
     name: str
     house: str
@@ -56,7 +53,6 @@ class Scenario:
     lot: str | None = None
 
     def build_model(self):
-        """HouseModel of the run. Raises HouseError."""
         model = build_house(load_house(self.house), snow_depth=self.snow_depth, wall_level=self.wall_level)
         if self.joint_damping is not None:
             model.law = {**model.law, "joint_damping": self.joint_damping}
@@ -87,10 +83,8 @@ def build(scenario):
 
 
 def damp_sway(model):
-    """Give the walls of a model the damping times with which its structures sway with the damping ratio of its law.
-
-    The scene in YADE is replaced by the house at rest under its weight.
-    """
+    """Give the walls of a model the damping times with which its structures sway with the damping ratio of its law. The
+    scene in YADE is replaced by the house at rest under its weight."""
     O.reset()
     ids = add_elements(model)
     O.engines = engines.engines(joints=add_joints(model, ids), **law_options(model.law))

@@ -7,8 +7,7 @@ have with the dashpots of all contacts and joints the power P and the damping ra
     zeta_m = P / (2 omega_m) + sum over joints tau_j E_jm / (2 omega_m)        E_jm = phi_m' K_j phi_m
 
 The stated ratio gives one time tau for each mode. A joint has their mean, weighted by its energies E_jm in both modes.
-Where contacts carry most of the elastic energy, as in braced houses, joints cannot add the rest: tau is limited.
-"""
+Where contacts carry most of the elastic energy, as in braced houses, joints cannot add the rest: tau is limited."""
 import numpy as np
 import scipy  # submodules load on first use; most runs need no optimize
 import yade.wrapper as yw
@@ -17,8 +16,7 @@ from yade_timber.scene.engines import find_engine
 
 from . import modes
 
-HORIZONTAL = (0, 1)
-"""Components east and north."""
+HORIZONTAL = (0, 1)  # components east and north
 MOST = 2.0
 """Largest time over that of a house whose joints have all of the elastic energy, 2 zeta / omega. [-] Larger: joints of
 braced houses would be overdamped once contacts have opened; smaller: less than the stated ratio where sheets join
@@ -30,8 +28,7 @@ def damping_times(ratio, bodies, chosen):
     """(J,) damping times with which the sway of a structure has a damping ratio. [s]
 
     Zero where contacts alone have the ratio, and for a structure without stable sway. bodies: ids of those of the
-    structure; chosen: (J,) bool, its joints among those of the scene
-    """
+    structure; chosen: (J,) bool, its joints among those of the scene"""
     sway = sway_modes(bodies)
     if not sway:
         return np.zeros(len(chosen))

@@ -5,10 +5,8 @@ import yade.runtime
 import yade.wrapper as yw
 
 BACKGROUND = (0.80, 0.87, 0.93)
-DIRECTION = (0.72, 0.64, 0.30)
-"""Direction from the house to the camera: north-east, above. [-]"""
-DISTANCE = 1.15
-"""Distance of the camera over the diagonal of the house. [-]"""
+DIRECTION = (0.72, 0.64, 0.30)  # direction from the house to the camera: north-east, above. [-]
+DISTANCE = 1.15  # distance of the camera over the diagonal of the house. [-]
 O = yw.Omega()
 
 

@@ -3,8 +3,7 @@
 
 A task is done when its folder holds a summary.json made from the same options, files and package. `run_missing` starts
 the other tasks: a process finds its options in request.json of the folder (run/request_file.py). An interrupted run
-continues from its checkpoint. run.json records how a run ended; run.log holds its messages.
-"""
+continues from its checkpoint. run.json records how a run ended; run.log holds its messages."""
 import json
 import os
 import shutil
@@ -32,17 +31,12 @@ from ..run.options import RunOptions
 from ..text.english import counted
 
 END, LOG = "run.json", "run.log"
-ENTRY = Path(__file__).resolve().parents[1] / "api" / "requested.py"
-"""What a process starts."""
-DRIVER = ".driver"
-"""Lock of the driver that starts a run."""
+ENTRY = Path(__file__).resolve().parents[1] / "api" / "requested.py"  # what a process starts
+DRIVER = ".driver"  # lock of the driver that starts a run
 STATES = ("done", "failed", "unfinished")
-STOPS = ("SIGHUP", "SIGINT", "SIGKILL", "SIGTERM")
-"""Signals after which a run is continued; others are crashes."""
-POLL = 0.2
-"""Wall time between two checks of the running processes. [s]"""
-SAVE_TIME = 60.0
-"""Longest wait for interrupted runs to save their checkpoints. [s]"""
+STOPS = ("SIGHUP", "SIGINT", "SIGKILL", "SIGTERM")  # signals after which a run is continued; others are crashes
+POLL = 0.2  # wall time between two checks of the running processes. [s]
+SAVE_TIME = 60.0  # longest wait for interrupted runs to save their checkpoints. [s]
 
 
 @dataclass(frozen=True)
@@ -54,8 +48,7 @@ class Task:
 
     def request(self):
         """RunOptions of its process: those that decide results, and those with which the driver runs it."""
-        indecisive = {name: each.default for name, each in options(RunOptions).items()
-                      if not each.metadata["decides"]}
+        indecisive = {name: each.default for name, each in options(RunOptions).items() if not each.metadata["decides"]}
         own = {"out": self.folder, "resume": True, "or_anew": True, "no_views": True, "quiet": True}
         return replace(self.options, **{**indecisive, "no_frames": self.options.no_frames, **own})
 
@@ -67,7 +60,6 @@ class Task:
 
     @property
     def error(self):
-        """Error message of a failed run, None for others."""
         recorded = (_read(self.folder / END) or {}).get("error")
         return recorded if recorded and self.summary is None else None
 
@@ -107,12 +99,10 @@ def _read(path):
 def run_missing(tasks, jobs=None, report=print, retry=True):
     """Run the tasks that are not done, `jobs` at a time (default: one per core); returns {task: summary or None}.
 
-    report   called with one line for each run that ends
-    retry    whether failed runs are started again
+    report   called with one line for each run that ends retry    whether failed runs are started again
 
     Failed runs do not stop the others. Raises RunError without YADE, and KeyboardInterrupt after SIGINT or SIGTERM,
-    when the started runs have saved their checkpoints.
-    """
+    when the started runs have saved their checkpoints."""
     tasks = list(dict.fromkeys(tasks))
     missing = [task for task in tasks if task.is_missing(retry)]
     for task in set(tasks).difference(missing):
@@ -191,23 +181,19 @@ class _Process:
     def outcome(self):
         """Record how the run ended; returns one line."""
         with self.lock:
-            return self._recorded()
-
-    def _recorded(self):
-        if self.child is None or self.child.returncode and is_locked(self.task.folder):
-            return "skipped: another process computes this run"
-        ended_by = _signal(self.child.returncode)
-        if ended_by in STOPS:
-            return f"stopped by {ended_by}; the next start continues this run"
-        error = f"crashed ({ended_by}); see {self.task.folder / LOG}" if ended_by else self._error()
-        record_end(self.task.folder, error)
+            if self.child is None or self.child.returncode and is_locked(self.task.folder):
+                return "skipped: another process computes this run"
+            ended_by = _signal(self.child.returncode)
+            if ended_by in STOPS:
+                return f"stopped by {ended_by}; the next start continues this run"
+            error = f"crashed ({ended_by}); see {self.task.folder / LOG}" if ended_by else self._error()
+            record_end(self.task.folder, error)
         if error:
             return f"failed: {error}"
         again = " again (other options, files or package)" if self.outdated else ""
         return f"done{again} in {self.age:.0f} s"
 
     def _error(self):
-        """Error message of the run, or None."""
         if self.child.returncode:
             return self.task.error or f"exit status {self.child.returncode}; see {self.task.folder / LOG}"
         if self.task.summary is None:

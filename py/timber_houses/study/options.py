@@ -37,9 +37,6 @@ def run_script(main):
         sys.exit("stopped; the same command continues")
 
 
-# --- types of arguments -----------------------------------------------------------------------------------------------
-
-
 def _number(kind, low, noun):
     """Type of a number: int or float, from the smallest admissible value on, finite."""
 
@@ -94,9 +91,6 @@ def results_folder(text):
     except (OSError, ValueError) as problem:
         raise argparse.ArgumentTypeError(f"'{str(text)[:80]}': no results can be written there:"
                                          f" {getattr(problem, 'strerror', None) or problem}") from None
-
-
-# --- options that studies share ---------------------------------------------------------------------------------------
 
 
 def add_driver_options(parser, folder):

@@ -13,10 +13,8 @@ from ..motion import MotionRequest, onset, trim, write_csv
 from ..text.english import counted
 from .driver import Task, about, run_missing
 
-PART = 1.0
-"""Part of the motion that is computed, about the time at which half of its energy has arrived. [s]"""
-FEW = 30.0
-"""Simulated time of all runs, per run at a time, up to which none is computed. [s]"""
+PART = 1.0  # part of the motion that is computed, about the time at which half of its energy has arrived. [s]
+FEW = 30.0  # simulated time of all runs, per run at a time, up to which none is computed. [s]
 
 
 def estimate(task, count, jobs=None):

@@ -7,14 +7,10 @@ from ..recording.summary import TownSummary
 
 DRIFT_LINES = tuple((limit.drift, limit.text) for limit in verdict.LIMITS)
 """Limits of storey drifts and their meaning. [-]"""
-CONVERGED = 1e-6
-"""Share of the energy put in that unconverged steps may lack without a remark. [-]"""
-SMALL = 1e-3
-"""Drifts below this are not distinguished. [-]"""
-TORSION = 1.1
-"""Drift at a column over that of the centre from which a sentence states it. [-]"""
-LONGEST_TEXT = 400
-"""Letters of a text from data that are shown; Agg cannot draw a line of 32768 pixels."""
+CONVERGED = 1e-6  # share of the energy put in that unconverged steps may lack without a remark. [-]
+SMALL = 1e-3  # drifts below this are not distinguished. [-]
+TORSION = 1.1  # drift at a column over that of the centre from which a sentence states it. [-]
+LONGEST_TEXT = 400  # letters of a text from data that are shown; Agg cannot draw a line of 32768 pixels
 ORIGIN = {"none": "No ground motion", "motion": "Ground motion", "record": "Record", "intensity": "JMA intensity",
           "step": "time step"}
 """Words of pictures/provenance.py."""
@@ -65,21 +61,17 @@ def early(summary):
 
 def unconverged(summary):
     """Steps that did not converge, if what they lack could be more than CONVERGED of the energy put in; else empty."""
-    solver = summary.solver
-    if solver.unconverged_steps * solver.worst_change_j <= CONVERGED * summary.energy.input:
-        return ""
-    return f"{solver.unconverged_steps} steps did not converge (largest change {solver.worst_change_j:.2g} J)"
+    steps, change = summary.solver.unconverged_steps, summary.solver.worst_change_j
+    lacks = steps * change > CONVERGED * summary.energy.input
+    return f"{steps} steps did not converge (largest change {change:.2g} J)" if lacks else ""
 
 
 def weight(summary):
     """Damage before the shaking, which an event describes; without an earthquake the cause. Empty without damage."""
     if summary.earthquake:
         return next((own_weight(event.facts) for event in summary.events if event.kind == "own_weight"), "")
-    return f"damaged by {its_weight(summary.snow)}" if summary.main.verdict != verdict.UNDAMAGED else ""
-
-
-def its_weight(has_snow):
-    return "its own weight" + " and snow" * has_snow
+    snow = " and snow" * summary.snow
+    return f"damaged by its own weight{snow}" if summary.main.verdict != verdict.UNDAMAGED else ""
 
 
 def ensemble(summary):
@@ -156,7 +148,6 @@ def residual(summary):
 
 
 def residual_name(summary):
-    """Name of the drift at the end."""
     return "residual drift" if summary.main.settled else "drift at the end"
 
 
@@ -193,14 +184,12 @@ def columns(summary):
 
 
 def snow(summary):
-    """Mass of the snow, and whether some has fallen."""
     first = summary.first_time("snow_fallen")
     falling = "" if first is None else f", falling from {first:.1f} s"
     return f"snow {summary.snow_mass_kg / 1000:.1f} t{falling}" if summary.snow else ""
 
 
 def record(summary):
-    """Constant part of the record, if it has one."""
     return f"the record's {summary.record.note}" if summary.record and summary.record.note else ""
 
 
@@ -209,16 +198,13 @@ def record(summary):
 
 def event(one):
     """Clause on an Event; of a town with its lot."""
-    return _in_lot(one, PHRASES[one.kind](one.facts))
+    return f"{one.lot}: " * (one.lot is not None) + PHRASES[one.kind](one.facts)
 
 
 def short(one):
     """The same in two or three words, for a fall of a structure or of snow."""
-    return _in_lot(one, f"{one.facts.structure} has fallen" if one.kind == "structure_fallen" else "snow has fallen")
-
-
-def _in_lot(one, text):
-    return text if one.lot is None else f"{one.lot}: {text}"
+    fallen = one.facts.structure if one.kind == "structure_fallen" else "snow"
+    return f"{one.lot}: " * (one.lot is not None) + f"{fallen} has fallen"
 
 
 def first_break(facts):
@@ -231,7 +217,7 @@ def own_weight(facts):
     main = next(iter(facts.structures), None)
     parts = [("" if name == main else f"{name}: ") + _damage(one) for name, one in facts.structures.items()
              if one.verdict != verdict.UNDAMAGED]
-    return f"damaged before the shaking, by {its_weight(facts.snow)}: {'; '.join(parts)}"
+    return f"damaged before the shaking, by its own weight{' and snow' * facts.snow}: {'; '.join(parts)}"
 
 
 def _damage(facts):
@@ -306,8 +292,7 @@ def ratio(drift, below="below "):
     if drift < SMALL:
         return f"{below}1/1000"
     number = round(1 / drift)
-    number += any(drift < limit.drift and number == round(1 / limit.drift)
-                  for limit in (*verdict.LIMITS, verdict.LOSS))
+    number += any(drift < limit.drift and number == round(1 / limit.drift) for limit in (*verdict.LIMITS, verdict.LOSS))
     return f"1/{number}" if drift <= 0.5 else f"{drift:.2f}"
 
 
@@ -318,15 +303,13 @@ def joint_place(kind, storey, side):
     return ", ".join(filter(None, (named, f"storey {storey}" if storey.isdigit() else storey, walls)))
 
 
-COUPLED = 0.5
-"""Smaller over larger share of the mass of the two horizontal directions from which a mode has both. [-]"""
+COUPLED = 0.5  # smaller over larger share of the mass of the two horizontal directions from which a mode has both. [-]
 
 
 def mode_name(mode):
     """'N-S', or of a coupled mode 'coupled N-S and E-W', the direction of more mass first."""
-    shares = {axis: mode.mass_share[axis] for axis in ("ns", "ew")}
-    other = min(shares, key=shares.get)
-    if shares[other] < COUPLED * shares[mode.direction] or other == mode.direction:
+    other = min(("ns", "ew"), key=mode.mass_share.get)
+    if mode.mass_share[other] < COUPLED * mode.mass_share[mode.direction] or other == mode.direction:
         return direction_name(mode.direction)
     return f"coupled {direction_name(mode.direction)} and {direction_name(other)}"
 

@@ -120,8 +120,7 @@ def early(summary):
     onset, end = summary.missed_shaking or (None, None)
     if onset is None:
         return ""
-    return (f"強い揺れ（{onset:.1f} 秒）の前に計算を終了" if summary.duration_s < onset
-            else f"強い揺れ（{onset:.1f}～{end:.1f} 秒）の途中で計算を終了")
+    return (f"強い揺れ（{onset:.1f} 秒）の前に計算を終了" if summary.duration_s < onset else f"強い揺れ（{onset:.1f}～{end:.1f} 秒）の途中で計算を終了")
 
 
 def ensemble(summary):
@@ -136,9 +135,6 @@ def ensemble(summary):
 def place_in_ensemble(place):
     """'16 回の計算の 7 番目'. place: summary.Ensemble"""
     return f"{place.runs} 回の計算の {place.run} 番目"
-
-
-# --- events -----------------------------------------------------------------------------------------------------------
 
 
 def event(one):
@@ -162,14 +158,6 @@ def _damage(facts):
     return "、".join([*(text.format(number) for number, text in counts if number), f"最大層間変形角 {below(facts.peak_drift)}"])
 
 
-def _roof(facts):
-    """Structure, other than the main one, and side of a roof, as far as they are known."""
-    if facts.structure:
-        yield structure_name(facts.structure)
-    if facts.side in SIDES:
-        yield SIDES[facts.side]
-
-
 def level(facts):
     limit = passed(facts.drift)
     return f"層間変形角が {ratio(limit.drift)} を超える（{LEVELS[limit.name]}）"
@@ -182,14 +170,12 @@ PHRASES = {
     "own_weight": own_weight,
     "structure_fallen": lambda facts: f"{structure_name(facts.structure)}が倒れた",
     "columns_lost": lambda facts: f"柱 {facts.total} 本のうち {facts.number} 本が倒れるか外れた",
-    "snow_fallen": lambda facts: "".join(f"{place}の" for place in _roof(facts)) + "屋根の雪が落ちる",
+    "snow_fallen": lambda facts: (f"{structure_name(facts.structure)}の" * bool(facts.structure)
+                                  + f"{SIDES.get(facts.side)}の" * (facts.side in SIDES) + "屋根の雪が落ちる"),
     "shaking_begins": lambda facts: "揺れの始まり",
     "strongest_shaking": lambda facts: "最大の揺れ",
     "level": level,
 }
-
-
-# --- words ------------------------------------------------------------------------------------------------------------
 
 
 def direction_name(key):
@@ -204,8 +190,6 @@ def below(drift):
     """A drift in the notation of engineers: 1/85, 1/1000 未満."""
     return f"{ratio(drift, '')}{' 未満' if drift < SMALL else ''}"
 
-
-# --- page for the owner of a house ------------------------------------------------------------------------------------
 
 MEANING = {"undamaged": "補修が必要な被害は予想されません。",
            "repairable": "補修できる被害（仕上げのひび割れ、接合部のゆるみ）です。専門家の点検を受けてください。",

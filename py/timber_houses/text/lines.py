@@ -7,10 +7,8 @@ from ..recording.quantities import BAND_TEXT
 from .english import (at, counted, directed, direction_name, event, joints, mode_name, period_text, ratio,
                       residual_name, storey_name)
 
-MOST = 10
-"""Number of lines."""
-EVENTS = 3
-"""Number of lines that events may take from others; those of an earlier kind in the next list come first."""
+MOST = 10  # number of lines
+EVENTS = 3  # number of lines that events may take from others; those of an earlier kind in the next list come first
 IMPORTANT = ("own_weight", "collapse", "tilt", "structure_fallen", "snow_fallen", "columns_lost", "first_break")
 
 
@@ -78,7 +76,6 @@ def before(quantities):
 
 
 def accelerations(quantities):
-    """Largest horizontal acceleration of any level."""
     values = [(storey.acceleration[axis], name, axis) for name, storey in quantities.storeys.items()
               for axis in storey.acceleration if axis != "ud"]
     if not values:
@@ -108,6 +105,5 @@ def periods(summary):
 
 
 def events(summary, most):
-    """The most important events in the order of time."""
     chosen = sorted(summary.events, key=lambda one: (IMPORTANT.index(one.kind), one.time_s))[:most]
     return [f"{one.time_s:.2f} s: {event(one)}." for one in sorted(chosen, key=lambda one: one.time_s)]

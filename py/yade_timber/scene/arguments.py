@@ -12,7 +12,6 @@ O = yw.Omega()
 
 
 def shown(value):
-    """A value in one short line."""
     return " ".join(reprlib.repr(value).split())
 
 
@@ -58,7 +57,6 @@ def text(name, value):
 
 
 def instance(name, value, kinds, form):
-    """An object of one of some classes."""
     if not isinstance(value, kinds):
         refuse(TypeError, name, value, form)
     return value

@@ -4,8 +4,7 @@
 YADE's classes accept misspelt names in silence and keep a value that their `postLoad` has refused. `install` mends both
 for the classes that it is given: unknown names are refused, and after a refused value the object is as before; numbers
 are finite, unless the class's own value is not; `updateAttrs` sets what the attributes themselves would set. `guard`
-extends the last two to classes of YADE.
-"""
+extends the last two to classes of YADE."""
 import difflib
 import math
 import re
@@ -25,20 +24,15 @@ FORMS = {"Real": "a number", "int": "an integer", "long": "an integer", "bool": 
 """YADE's name of a type -> admissible form."""
 REGISTERED = re.compile(r":yattrtype:`(.*?)`")
 """In the documentation of an attribute that is saved with the scene; other properties have none."""
-CONVERSION_ERRORS = (TypeError, OverflowError)
-"""Of Boost.Python for a value of another type."""
-GEOMETRY = ("vertices", "radius")
-"""Attributes of a shape that the geometry of a body follows from."""
-VALIDATED_OF_YADE = ("density",)
-"""Attributes of YADE's base classes on which the package's classes depend."""
+CONVERSION_ERRORS = (TypeError, OverflowError)  # of Boost.Python for a value of another type
+GEOMETRY = ("vertices", "radius")  # attributes of a shape that the geometry of a body follows from
+VALIDATED_OF_YADE = ("density",)  # attributes of YADE's base classes on which the package's classes depend
 RULED = {(yw.Body, "shape"), (yw.Body, "material"), (yw.Body, "state"), (yw.State, "angVel"), *LISTS}
 """Attributes of YADE's classes whose assignment `background` and `containers` guard."""
-FINITE = (yw.State, yw.Aabb, yw.InsertionSortCollider)
-"""Classes of YADE's own whose numbers must be finite, too."""
+FINITE = (yw.State, yw.Aabb, yw.InsertionSortCollider)  # classes of YADE's own whose numbers must be finite, too
 NOT_ZERO = dict.fromkeys(("ori", "refOri", "se3"), ", and the norm of a quaternion > 0")
 """Attributes that YADE divides by their norm: end of the message."""
-MEASURED = ("rows",)
-"""Attributes that a monitor fills: in a scene that fails, they are not finite."""
+MEASURED = ("rows",)  # attributes that a monitor fills: in a scene that fails, they are not finite
 _own = set()
 _update_attributes = yw.Serializable.updateAttrs
 
@@ -154,7 +148,6 @@ def _restored(target):
 
 def _initialiser(construct):
     """Constructor whose errors name the keyword."""
-
     def __init__(self, *args, **attributes):
         with _named_errors(type(self), attributes):
             construct(self, *args, **attributes)
@@ -195,7 +188,6 @@ def _unknown(cls, name):
 
 
 def _wrong_type(cls, attribute, name, value):
-    """Message about a value of a wrong type."""
     match = REGISTERED.search(attribute.__doc__ or "")
     kind = match.group(1).strip() if match else "value"
     return f"{cls.__name__}.{name} = {shown(value)}: it must be {FORMS.get(kind, f'a {kind}')}"

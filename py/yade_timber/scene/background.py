@@ -6,8 +6,7 @@ step ends the process. A scene that is replaced within a step blocks it for ever
 `O.pause()` returns before the step ends. `install` lets what OWN lists wait for the end of the step, `guard` what YADES
 lists. `guard` also refuses a body's shape, material or state that the package's engines cannot deal with.
 
-Threads take turns to start, interrupt and await a run: what is guarded waits while another thread is in `O.wait()`.
-"""
+Threads take turns to start, interrupt and await a run: what is guarded waits while another thread is in `O.wait()`."""
 import threading
 from contextlib import contextmanager
 from functools import wraps
@@ -20,8 +19,7 @@ from ..plugin import compiled
 BODY_PARTS = ("shape", "material", "state")
 O = yw.Omega()
 _turn = threading.RLock()
-_pauses = 0
-"""Number of calls of `O.pause`, counted after `guard`. [-]"""
+_pauses = 0  # number of calls of `O.pause`, counted after `guard`. [-]
 
 
 @contextmanager

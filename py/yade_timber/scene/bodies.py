@@ -13,8 +13,7 @@ from .background import follow_velocity
 from .queries import imposed_velocities
 
 O = yw.Omega()
-LEAST_RADIUS = 1e-4
-"""Smallest rounding radius that a caller may give, that of the tolerance for flush faces. [m]"""
+LEAST_RADIUS = 1e-4  # smallest rounding radius that a caller may give, that of the tolerance for flush faces. [m]
 _TIMBER, _SNOW = yw.TimberMat(), yw.SnowMat()  # the paper's values
 
 
@@ -75,12 +74,6 @@ def snow(density=_SNOW.density, stiffness_per_kg=_SNOW.stiffnessPerMass, frictio
     return yw.SnowMat(density=arguments.number("snow: density", density, "kg/m3"),
                       stiffnessPerMass=arguments.number("snow: stiffness_per_kg", stiffness_per_kg, "N/m/kg"),
                       friction=arguments.number("snow: friction", friction), label=arguments.text("snow: label", label))
-
-
-def to_digits(corners):
-    """Corners to 13 digits of their extent [m]: equal elements at different positions share their geometry."""
-    digit = 10.0 ** (np.floor(np.log10(np.abs(corners).max())) - 12)
-    return np.round(corners / digit) * digit + 0.0  # no negative zeros
 
 
 def polyhedron(vertices, material=None, fixed=False, radius=None, name="", kind="", color=None):
@@ -156,7 +149,9 @@ def principal_body(vertices, density, radius, **look):
     principal = axes.conjugate().toRotationMatrix() * inertia * axes.toRotationMatrix()
 
     body = yw.Body()
-    body.shape = yw.RoundedPolyhedron(vertices=[Vector3(*v) for v in to_digits(corners)], radius=radius, **look)
+    digit = 10.0 ** (np.floor(np.log10(np.abs(corners).max())) - 12)  # equal elements anywhere share their geometry
+    rounded = np.round(corners / digit) * digit + 0.0  # no negative zeros
+    body.shape = yw.RoundedPolyhedron(vertices=[Vector3(*v) for v in rounded], radius=radius, **look)
     body.state.mass = density * volume
     body.state.inertia = density * Vector3(principal[0, 0], principal[1, 1], principal[2, 2])
     body.state.pos = body.state.refPos = Vector3(*origin) + centroid

@@ -3,8 +3,7 @@
 
 YADE ends the process at None in a list. `guard` refuses it. A body that is erased takes its joints with it at once:
 another body may get its id before the next step, or the scene may be saved. An interaction that is erased begins anew
-as one of bodies that are placed.
-"""
+as one of bodies that are placed."""
 from functools import wraps
 
 import yade.wrapper as yw
@@ -17,8 +16,7 @@ LISTS = ((yw.Omega, "engines"), (yw.ParallelEngine, "slaves"),
 """Class and attribute, a list without None, also inside its lists."""
 BUILT_FROM_LISTS = (*FUNCTORS, yw.Collider, yw.InteractionLoop, yw.ParallelEngine)
 """Classes whose constructors, and those of classes derived from them, take such lists."""
-FILLED = (("bodies", yw.BodyContainer, ("append", "appendClumped", "insertAtId", "replace")),)
-"""Name of a container, its class, the methods that take its objects."""
+FILLING = ("append", "appendClumped", "insertAtId", "replace")  # methods of O.bodies that take bodies
 O = yw.Omega()
 
 
@@ -30,9 +28,8 @@ def guard():
     classes = [cls for cls in vars(yw).values() if isinstance(cls, type) and issubclass(cls, BUILT_FROM_LISTS)]
     for cls in classes:
         setattr(cls, "__init__", _checked(cls.__name__, getattr(cls, "__init__")))
-    for name, owner, methods in FILLED:
-        for method in filter(lambda method: hasattr(owner, method), methods):
-            setattr(owner, method, _checked(f"O.{name}.{method}", getattr(owner, method), alone=True))
+    for method in filter(lambda method: hasattr(yw.BodyContainer, method), FILLING):
+        setattr(yw.BodyContainer, method, _checked(f"O.bodies.{method}", getattr(yw.BodyContainer, method), alone=True))
     yw.BodyContainer.erase = _followed_by(_break_joints, yw.BodyContainer.erase)
     yw.InteractionContainer.erase = _followed_by(_begin_anew, yw.InteractionContainer.erase)
     yw.InteractionContainer.clear = _followed_by(_begin_anew, yw.InteractionContainer.clear)

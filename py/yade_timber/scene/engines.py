@@ -6,10 +6,8 @@ from yade.minieigenHP import Vector3
 from ..plugin import compiled
 from . import arguments
 
-GRAVITY = tuple(yw.UniformGravity().gravity)
-"""[m/s2]"""
-BOUND_MARGIN = 5e-3
-"""Distance that bodies may move before the collider runs again [m]; results do not depend on it."""
+GRAVITY = tuple(yw.UniformGravity().gravity)  # [m/s2]
+BOUND_MARGIN = 5e-3  # distance that bodies may move before the collider runs again [m]; results do not depend on it
 _FORCES, _RATIO = yw.ContactForces(), yw.Ip2_TimberMat_TimberMat_TimberPhys().dampingRatio  # with their defaults
 O = yw.Omega()
 
@@ -108,7 +106,6 @@ def ground_motion_engine(motion, scale=1.0, start=0.0):
 
 
 def joint_engine(joints):
-    """JointEngine with these TimberJoints."""
     engine = yw.JointEngine()
     for joint in arguments.instance("engines: joints", joints, (list, tuple), "a list of TimberJoint or None"):
         engine.append(arguments.instance("engines: joints", joint, yw.TimberJoint, "a list of TimberJoint or None"))

@@ -70,7 +70,6 @@ def polyhedra(caller):
 
 
 def describe_material(material):
-    """Dictionary of a TimberMat or SnowMat."""
     common = {"density": material.density, "friction": material.friction}
     if isinstance(material, yw.SnowMat):
         return {"law": "snow", "stiffness_per_kg": material.stiffnessPerMass, **common}
@@ -99,31 +98,21 @@ def describe_element(body, materials):
 
 
 def describe_joint(joint):
-    """Dictionary of a TimberJoint; points: ends of the springs on the first element."""
+    """Dictionary of a TimberJoint; points: ends of the springs on the first element. Law slip: its stretches, plastic
+    in the world and largest [m]; law wall: the history of each spring."""
     state = O.bodies[joint.id1].state
+    law: dict = {"envelope": [list(point) for point in joint.envelope],
+                 **{name: getattr(joint, attribute(name)) for name in PARAMETERS[joint.law]}}
+    if joint.law == "slip":
+        law |= {"plastic": [list(state.ori * p) for p in joint.plasticStretches],
+                "largest": list(joint.largestStretches)}
+    elif joint.law == "wall":
+        law["springs"] = [{key: list(value) if isinstance(value, tuple) else value for key, value in spring.items()}
+                          for spring in joint.cycles]
     return {"elements": [joint.id1, joint.id2], "points": [list(state.pos + state.ori * a) for a in joint.anchors1],
             "normal": list(state.ori * joint.normal), "stiffness": [joint.kn, joint.ks],
             "strength": joint.strength if math.isfinite(joint.strength) else None,
             "reading": "joint" if joint.perJoint else "spring", "damping_ratio": joint.dampingRatio,
             "damping_time": joint.dampingTime, "initial_damping": joint.initialDamping,
             "broken": [bool(b) for b in joint.broken], "kind": joint.kind, "name": joint.name,
-            "slip": describe_slip(joint, state) if joint.law == "slip" else None,
-            "wall": describe_wall(joint) if joint.law == "wall" else None}
-
-
-def describe_law(joint):
-    """Dictionary of a TimberJoint's law: its envelope (n, 2) [m, N] and parameters [-, m, N, N/m]."""
-    return {"envelope": [list(point) for point in joint.envelope],
-            **{name: getattr(joint, attribute(name)) for name in PARAMETERS[joint.law]}}
-
-
-def describe_slip(joint, state):
-    """The same of a yielding TimberJoint, with its stretches: plastic (n, 3) in the world and largest (n,) [m]."""
-    return {**describe_law(joint), "plastic": [list(state.ori * p) for p in joint.plasticStretches],
-            "largest": list(joint.largestStretches)}
-
-
-def describe_wall(joint):
-    """The same of a TimberJoint of a wall, with the history of each spring."""
-    return {**describe_law(joint), "springs": [{key: list(value) if isinstance(value, tuple) else value
-                                                for key, value in spring.items()} for spring in joint.cycles]}
+            **{name: law if joint.law == name else None for name in ("slip", "wall")}}

@@ -10,8 +10,7 @@ from . import arguments
 from .background import between_steps
 from .engines import find_engine
 
-PER_JOINT = {"spring": False, "joint": True}
-"""Owner of stiffness and strength -> TimberJoint.perJoint."""
+PER_JOINT = {"spring": False, "joint": True}  # owner of stiffness and strength -> TimberJoint.perJoint
 O = yw.Omega()
 
 

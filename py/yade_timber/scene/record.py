@@ -17,9 +17,6 @@ from .joints import joins_bodies
 O = yw.Omega()
 
 
-# --- descriptions -----------------------------------------------------------------------------------------------------
-
-
 def describe_bodies(bodies):
     """{column: values} of polyhedra in their present placement; vertices in the body frame."""
     states = [body.state for body in bodies]
@@ -43,9 +40,6 @@ def describe_joints(joints, ids):
             "strength": np.array([joint.strength for joint in joints], float)}
 
 
-# --- states -----------------------------------------------------------------------------------------------------------
-
-
 def placements():
     """((N, 3) positions [m], (N, 4) orientations w, x, y, z) of the bodies, float32; NaN for a removed one."""
     position, orientation = compiled.packed_placements()
@@ -64,9 +58,6 @@ def contact_points():
     pair, position, force = compiled.packed_contacts()
     return (np.frombuffer(pair, "i4").reshape(-1, 2), np.frombuffer(position, "f4").reshape(-1, 3),
             np.frombuffer(force, "f4").reshape(-1, 3))
-
-
-# --- log --------------------------------------------------------------------------------------------------------------
 
 
 class Record:

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """One line about each object of the package's classes, and a table of a joint's springs, for the prompt: units, four
-digits.
-"""
+digits."""
 ATTRIBUTES = {"TimberMat": (("young", "Pa"), ("poisson", ""), ("density", "kg/m3"), ("friction", ""),
                             ("bearing", "Pa")),
               "SnowMat": (("density", "kg/m3"), ("friction", "")),
@@ -16,7 +15,8 @@ def install(classes):
     for cls in classes:
         cls.__repr__ = cls.__str__ = LINES.get(cls.__name__, _line)
         if cls.__name__ == "TimberJoint":
-            cls.springs = property(_springs(cls.springs.fget), doc=cls.springs.__doc__)
+            springs = cls.springs
+            cls.springs = property(lambda joint: Springs(springs.fget(joint)), doc=springs.__doc__)
 
 
 class Springs(list):
@@ -27,10 +27,6 @@ class Springs(list):
                 f"  {'broken' if spring['broken'] else 'intact'}"
                 for k, spring in enumerate(self))
         return "\n".join(["spring  force x, y, z on body 1 [N]           stretch [mm]  state", *rows])
-
-
-def _springs(springs):
-    return lambda joint: Springs(springs(joint))
 
 
 def _line(part):

@@ -3,8 +3,7 @@
 
 Reference sides 1 to 4 lie around the part's length, 5 and 6 at its ends. Each has an own frame: origin at a corner of
 the box, z outwards. Cuts of ends measure their angle in the side from its x axis and their inclination against the
-side; at the part's end both are mirrored in x.
-"""
+side; at the part's end both are mirrored in x."""
 from functools import lru_cache
 
 import numpy as np

@@ -6,8 +6,7 @@
    where that costs the least volume; laps, notches and housings also by the share of a part that it costs, and
    rather at an end that lies on another part than at one under it. A part that would lose more than MOST_LOST is
    divided at the other one instead.
-3. Ends that met nothing get their length back.
-"""
+3. Ends that met nothing get their length back."""
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations
@@ -18,14 +17,10 @@ from ..errors import HouseError
 from ..geometry import SAME, halfspace_vertices, near_boxes, polyhedron, separation
 from .reader import Part
 
-ROUNDING = 1.5e-3
-"""Gap that rounding leaves between parts of 2 m that meet. [m]"""
-OVERLAP = 1e-7
-"""Overlap that is no more than rounding. [m]"""
-MOST_LOST = 0.25
-"""Largest share of its volume that a part loses where it overlaps another, as half a lap. [-]"""
-TRIED = 10.0
-"""Cuts of a pair that are compared: those of up to so many times the least rough share. [-]"""
+ROUNDING = 1.5e-3  # gap that rounding leaves between parts of 2 m that meet. [m]
+OVERLAP = 1e-7  # overlap that is no more than rounding. [m]
+MOST_LOST = 0.25  # largest share of its volume that a part loses where it overlaps another, as half a lap. [-]
+TRIED = 10.0  # cuts of a pair that are compared: those of up to so many times the least rough share. [-]
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,18 +62,13 @@ class Piece:
 
 def fitted(pieces):
     """Pieces whose ends lie flush on the faces that they meet, without overlaps."""
-    return [_restored(piece) for piece in _separate([_lengthened(piece) for piece in pieces])]
-
-
-def _lengthened(piece):
-    planes = [(normal, offset + ROUNDING * piece.is_end(normal)) for normal, offset in piece.planes]
-    return replace(piece, planes=planes, longer=tuple(plane for plane in planes if piece.is_end(plane[0])))
-
-
-def _restored(piece):
-    """The piece with its own ends where these still bound it."""
-    faces = [face for face in piece.solid.faces if _excess(piece, face)]
-    return replace(piece, planes=[*piece.planes, *((face.normal, face.offset - ROUNDING) for face in faces)])
+    lengthened = []
+    for piece in pieces:
+        planes = [(normal, offset + ROUNDING * piece.is_end(normal)) for normal, offset in piece.planes]
+        longer = tuple(plane for plane in planes if piece.is_end(plane[0]))
+        lengthened.append(replace(piece, planes=planes, longer=longer))
+    return [replace(piece, planes=[*piece.planes, *((face.normal, face.offset - ROUNDING) for face in piece.solid.faces
+                                                    if _excess(piece, face))]) for piece in _separate(lengthened)]
 
 
 def _excess(piece, face):
@@ -94,10 +84,13 @@ def near(pieces, margin):
 
 def _separate(pieces):
     """Pieces without overlaps, the deepest of which is removed first."""
-    todo = sorted(near(pieces, 0.0), key=lambda pair: _overlap(pieces, pair), reverse=True)
+    def overlap(pair):
+        return -separation(*(pieces[k].solid for k in pair))
+
+    todo = sorted(near(pieces, 0.0), key=overlap, reverse=True)
     while todo:
         i, j = todo.pop(0)
-        depth = _overlap(pieces, (i, j))
+        depth = overlap((i, j))
         if depth <= OVERLAP:
             continue
         kept = _cut_apart(pieces[i], pieces[j], depth)
@@ -109,10 +102,6 @@ def _separate(pieces):
         else:
             pieces[i], pieces[j] = kept
     return pieces
-
-
-def _overlap(pieces, pair):
-    return -separation(*(pieces[k].solid for k in pair))
 
 
 def _cut_apart(a, b, depth):

@@ -3,8 +3,7 @@
 
 BTLx states millimetres and degrees. A part fills a box in its own frame: x along its length, y along its height, z
 along its width; its place gives origin, x and y in the frame of the project, z = x cross y. Raw parts, which hold parts
-nested for production, are not read.
-"""
+nested for production, are not read."""
 from collections import Counter
 from dataclasses import dataclass, field
 from io import BytesIO
@@ -16,15 +15,12 @@ from ...base.input_file import shown
 from ..errors import HouseError
 from ..limits import MAX_ELEMENTS
 
-MAX_FILE_SIZE = 50_000_000
-"""Of a BTLx file. [bytes]"""
+MAX_FILE_SIZE = 50_000_000  # of a BTLx file. [bytes]
 MM = 1e-3
 SIZES, FOIL = (1e-3, 100.0), 5e-3
 """Range of a part's length, height and width; thickness from which on a part is read. [m]"""
-FARTHEST = 1e7
-"""Largest coordinate of a place, in a national grid. [m]"""
-MAX_CORNERS = 50
-"""Of a contour that is read; one with more is a curve."""
+FARTHEST = 1e7  # largest coordinate of a place, in a national grid. [m]
+MAX_CORNERS = 50  # of a contour that is read; one with more is a curve
 
 
 @dataclass(frozen=True)
@@ -79,8 +75,11 @@ def read_project(content, file):
     project = None
     try:
         for event, element in _events(content, file):
+            if event == "start" and (project is None or not project.parts):  # the first one with parts is read
+                project = Project(" ".join(element.get("Name", "").split()) or "frame")
+                continue
             if event == "start":
-                project = _begin(element, project)
+                project.notes["project after the first one"] += 1
                 continue
             if etree.QName(element).localname == "Part" and project:
                 _add_part(project, element, file)
@@ -104,14 +103,6 @@ def _events(content, file):
             raise HouseError(f"{file}:1: a document type (DOCTYPE) is not read; remove it")
         if (name == "Project") == (event == "start") and name != "BTLx":
             yield event, element
-
-
-def _begin(element, project):
-    """The project that is read from here on: the first one with parts."""
-    if project is None or not project.parts:
-        return Project(" ".join(element.get("Name", "").split()) or "frame")
-    project.notes["project after the first one"] += 1
-    return project
 
 
 def _add_part(project, element, file):

@@ -16,45 +16,35 @@ from .fit import ROUNDING, Piece, fitted, near
 
 TOLERANCE, LEAST_AREA = 1e-3, 1e-3
 """Of parts that meet: largest gap [m], least common area [m2]: `joint_search` of `cad.yaml`."""
-UPRIGHT, LEVEL = 0.985, 0.17
-"""Vertical part of the axis of a column, at least, and of a beam, at most: 10 degrees. [-]"""
-RAFTER = re.compile("rafter|sparren|chevron", re.I)
-"""Designations of inclined parts that are no braces."""
-SHEET = 0.06, 4.0
-"""A part up to this thick [m] is a sheet if it is so many times as wide."""
-FACE = 1e-3
-"""Height above the lowest point up to which faces are level with it. [m]"""
-PAD = 0.1
-"""Height of the pads under columns, and distance of their edges from these. [m]"""
-REACH = 3e-3
-"""Largest distance of a processing's middle from the part that it joins. [m]"""
-MARGIN = 5e-3
-"""Of the box about a member where cuts bound it. [m]"""
-NEGLIGIBLE = 1e-4
-"""Share of a part's volume that a left-out plane may have cut off. [-]"""
-SLIVER = 2e-5
-"""Area of a face without which a part is as good. [m2]"""
+UPRIGHT, LEVEL = 0.985, 0.17  # vertical part of the axis of a column, at least, and of a beam, at most: 10 degrees. [-]
+RAFTER = re.compile("rafter|sparren|chevron", re.I)  # designations of inclined parts that are no braces
+SHEET = 0.06, 4.0  # a part up to this thick [m] is a sheet if it is so many times as wide
+FACE = 1e-3  # height above the lowest point up to which faces are level with it. [m]
+PAD = 0.1  # height of the pads under columns, and distance of their edges from these. [m]
+REACH = 3e-3  # largest distance of a processing's middle from the part that it joins. [m]
+MARGIN = 5e-3  # of the box about a member where cuts bound it. [m]
+NEGLIGIBLE = 1e-4  # share of a part's volume that a left-out plane may have cut off. [-]
+SLIVER = 2e-5  # area of a face without which a part is as good. [m2]
 
 
 def house_table(project, file):
     """Table of a house file. Warns of what is left out. Raises HouseError."""
     rough, ignored = _pieces(project)
     pieces = fitted(rough)
-    contacts = _contacts(pieces)
+    found = {(i, j): contact_polygon(pieces[i].solid, pieces[j].solid, TOLERANCE) for i, j in near(pieces, ROUNDING)}
+    contacts = {pair: contact[0].mean(0) for pair, contact in found.items() if contact and contact[2] > LEAST_AREA}
     joints, used = _joints(pieces, rough, contacts)
     members, where = _members(pieces, contacts), f"{file}:1"
     named = [(pieces[i].name, pieces[j].name, how) for (i, j), how in joints.items()]
     named += [(name.removeprefix("pad-"), name, "butt") for name in list(members)[len(pieces):]]
-    lines = [*_lines(project, rough, pieces, ignored, used), _told_joints(how for *_, how in named), _supports(members)]
+    hows = ", ".join(f"{count} {how}" for how, count in sorted(Counter(how for *_, how in named).items()))
+    lines = [*_lines(project, rough, pieces, ignored, used), f"{len(named)} joints ({hows})", _supports(members)]
     for line in lines:
         warnings.warn(f"{file}: {line}", stacklevel=2)
     frame = {"members": Table(members, where),
              "joints": Items([Table({"between": Items(pair, where), "type": how}, where) for *pair, how in named])}
     return Table({"name": _word(file.rpartition(".")[0]), "description": "; ".join(lines)[:1000], "extends": "cad",
                   "frame": Table(frame, where)}, where)
-
-
-# --- pieces -----------------------------------------------------------------------------------------------------------
 
 
 def _pieces(project):
@@ -68,18 +58,14 @@ def _pieces(project):
         for place in part.places:
             copies[label] += 1
             name = label if copies[label] == 1 else f"{label}-copy{copies[label]}"
-            origin, axes = place[0] - base, _axes(*place[1:])
+            origin, (_, x, y) = place[0] - base, place  # x and y at nearly a right angle
+            x = x - (x @ y) * y  # y as stated, which all parts of a wall or roof share
+            x = x / np.linalg.norm(x)
+            axes = np.array([x, y, np.cross(x, y)])
             planes = [(normal @ axes, float(offset + normal @ axes @ origin))
                       for normal, offset in chain(box_planes(part.size), *found)]
             pieces.append(_without_slivers(Piece(name, part, origin, axes, planes, name)))
     return pieces, ignored
-
-
-def _axes(x, y):
-    """Axes (3, 3) of unit vectors at nearly a right angle: y as stated, which all parts of a wall or roof share."""
-    x = x - (x @ y) * y
-    x = x / np.linalg.norm(x)
-    return np.array([x, y, np.cross(x, y)])
 
 
 def _word(text):
@@ -103,19 +89,9 @@ def _without_slivers(piece):
     return piece
 
 
-# --- joints -----------------------------------------------------------------------------------------------------------
-
-
-def _contacts(pieces):
-    """{(index, index): middle of the common area (3,) [m]} of pieces whose faces meet."""
-    found = {(i, j): contact_polygon(pieces[i].solid, pieces[j].solid, TOLERANCE)
-             for i, j in near(pieces, ROUNDING)}
-    return {pair: contact[0].mean(0) for pair, contact in found.items() if contact and contact[2] > LEAST_AREA}
-
-
 def _joints(pieces, rough, contacts):
     """({(index, index): how the pieces meet}, Counter of the processings that say so). rough: pieces before they were
-    cut apart, of the same indices"""
+    cut apart, of the same indices; contacts: {(index, index): middle of the common area (3,) [m]}"""
     joints, used, mates = dict.fromkeys(contacts, "butt"), Counter(), defaultdict(list)
     for i, j in contacts:
         mates[i].append(j)
@@ -124,21 +100,15 @@ def _joints(pieces, rough, contacts):
     for k, piece in enumerate(rough):
         steps = [step for step in piece.part.processings if step.kind in PAIRED and mates[k]]
         points = [piece.origin + reference_point(step, piece.part.size) @ piece.axes for step in steps]
-        distances = [_distances(before[mate], points) for mate in mates[k] if points]
+        distances = []  # from the points to the mates, 0 inside; too small beyond their edges [m]
+        for mate in mates[k] if points else ():
+            normals, offsets = (np.array(each) for each in zip(*before[mate].planes))
+            distances.append(np.maximum((np.array(points) @ normals.T - offsets).max(1), 0.0))
         for step, nearest, distance in zip(steps, np.argmin(distances, 0), np.min(distances, 0)) if points else ():
             if distance < REACH:
                 joints[tuple(sorted((k, mates[k][nearest])))] = PAIRED[step.kind]
                 used[step.kind] += 1
     return joints, used
-
-
-def _distances(piece, points):
-    """From points (n, 3) to a piece, 0 inside; too small beyond its edges. [m]"""
-    normals, offsets = (np.array(each) for each in zip(*piece.planes))
-    return np.maximum((np.array(points) @ normals.T - offsets).max(1), 0.0)
-
-
-# --- members ----------------------------------------------------------------------------------------------------------
 
 
 def _members(pieces, contacts):
@@ -148,7 +118,8 @@ def _members(pieces, contacts):
     for pair, middle in contacts.items():
         for k in pair:
             joined[k].add((middle - pieces[k].solid.centroid) @ pieces[k].axes[0] > 0)
-    resting = [_rests(piece, low[2]) for piece in pieces]
+    resting = [any(face.normal[2] < -0.999 and face.points[:, 2].max() < low[2] + FACE for face in piece.solid.faces)
+               for piece in pieces]
     kinds = [_kind(piece, rests, len(joined[k]) == 2) for k, (piece, rests) in enumerate(zip(pieces, resting))]
     feet = [piece for piece, kind, rests in zip(pieces, kinds, resting) if kind == "column" and rests]
     shift = [0, 0, PAD if feet else 0.0] - low
@@ -158,13 +129,8 @@ def _members(pieces, contacts):
     return members | {f"pad-{piece.name}": _pad(piece, shift) for piece in feet}
 
 
-def _rests(piece, height):
-    """Whether a face of a piece looks down at this height."""
-    return any(face.normal[2] < -0.999 and face.points[:, 2].max() < height + FACE for face in piece.solid.faces)
-
-
 def _kind(piece, rests, is_joined):
-    """is_joined: whether both halves of the piece meet other ones"""
+    """rests: whether a face looks down at the lowest height; is_joined: whether both halves of the piece meet others"""
     rise, (thin, wide) = abs(piece.axes[0][2]), sorted(piece.part.size[1:])
     if thin <= SHEET[0] and wide > SHEET[1] * thin:
         across = piece.axes[1 if piece.part.size[1] == thin else 2]
@@ -213,14 +179,10 @@ def _items(numbers, where):
 
 
 def _pad(piece, shift):
-    """Table of the foundation under a column."""
     (low, high), where = piece.solid.bounds + shift, piece.part.where
     middle = (low[:2] + high[:2]) / 2
     return Table({"from": _items([*middle, 0.0], where), "to": _items([*middle, low[2]], where), "kind": "foundation",
                   "section": _items(high[:2] - low[:2] + 2 * PAD, where), "fixed": True}, where)
-
-
-# --- lines for the user -----------------------------------------------------------------------------------------------
 
 
 def _lines(project, rough, pieces, ignored, used):
@@ -240,11 +202,6 @@ def _lines(project, rough, pieces, ignored, used):
                      f" {100 * lost[name]:.2g} % of a part, {name}")
     divided = [piece.name for piece in pieces if piece.name not in whole]
     return lines + [f"divided where others pass: {', '.join(divided)}"] * bool(divided)
-
-
-def _told_joints(hows):
-    counts = Counter(hows)
-    return f"{counts.total()} joints ({', '.join(f'{count} {how}' for how, count in sorted(counts.items()))})"
 
 
 def _supports(members):

@@ -4,8 +4,7 @@
     row.py      a run: options, changes of its house, a name that follows from both
     table.py    file -> rows
     tasks.py    row -> task of the driver, after all rows have been checked
-    collect.py  results of the runs -> runs.csv
-"""
+    collect.py  results of the runs -> runs.csv"""
 from .collect import RUNS, write_runs
 from .row import BatchError, HouseChanges, Row
 from .table import read_table

@@ -9,8 +9,7 @@ from ...base.options import is_given, option, options
 from ...run.identity import content, made_from, of_values
 from ...run.options import RunOptions
 
-NO_EARTHQUAKE = "none"
-"""Value of the column `record` for a run without an earthquake."""
+NO_EARTHQUAKE = "none"  # value of the column `record` for a run without an earthquake
 DECISIVE = {name: each for name, each in options(RunOptions).items() if each.metadata["decides"] and name != "quake"}
 
 

@@ -3,8 +3,7 @@
 
 Columns separated by blanks (the format of yade-batch): `#` starts a comment, `*` is the default, `=` the value of the
 line above; columns whose names begin with `!` belong to yade-batch and are ignored. Separated by commas (CSV): an empty
-cell is the default. Relative paths are relative to the table's folder.
-"""
+cell is the default. Relative paths are relative to the table's folder."""
 import csv
 import re
 from pathlib import Path
@@ -15,8 +14,7 @@ from ...base.remedies import nearest
 from ...run.options import OptionSource, RunOptions
 from .row import DECISIVE, HOUSE_CHANGES, NO_EARTHQUAKE, BatchError, HouseChanges, Row
 
-MAX_FILE_SIZE = 10_000_000
-"""[bytes]"""
+MAX_FILE_SIZE = 10_000_000  # [bytes]
 COLUMNS = {"house": DECISIVE["house"], **HOUSE_CHANGES, **DECISIVE}
 """{column: option}, without the column `description`. A run has an earthquake unless its record is NO_EARTHQUAKE."""
 DESCRIPTION = "description"
@@ -24,9 +22,6 @@ NOT_UTF8 = "not UTF-8 text; save it as UTF-8 (in a spreadsheet: CSV UTF-8)"
 MIXED = ("the first line has no commas, so blanks separate the columns: separate the names in it by commas, too, or the"
          " values here by blanks alone")
 """Remedy for a table with blanks in the first line and commas in others."""
-
-
-# --- reading ----------------------------------------------------------------------------------------------------------
 
 
 def read_table(path):
@@ -51,9 +46,13 @@ def read_table(path):
                              f" {_remedy(first, line)}")
         if any(cell.endswith(",") for cell in cells):
             raise BatchError(f"{path.name}:{number}: values end in commas; {MIXED}")
-        cells = _named(cells, heads, f"{path.name}:{number}")
-        above = {head: _resolved(cell, above.get(head), f"{path.name}:{number}, column {head}")
-                 for head, cell in cells}
+        for head, cell in zip(heads, cells):
+            if head == "*" != cell:  # an empty column that a spreadsheet adds has the head '*' as well
+                raise BatchError(f"{path.name}:{number}: the value '{cell}' is in a column without a name")
+            if cell == "=" and head not in above:
+                raise BatchError(f"{path.name}:{number}, column {head}: '=' repeats the line above, and there is none")
+        above = {head: above[head] if cell == "=" else cell.strip("'\"") for head, cell in zip(heads, cells)
+                 if head != "*"}
         rows.append(_row({head: cell for head, cell in above.items() if cell != "*"}, path, number))
     _check_repeated(rows)
     return rows
@@ -68,7 +67,9 @@ def _row(cells, path, number):
               if name in cells}
     changes = {name: values.pop(name) for name in HOUSE_CHANGES if name in values}
     changes |= {name: tuple(filter(None, text.split(";"))) for name, text in changes.items() if isinstance(text, str)}
-    values["house"] = _house(values["house"], path.parent)
+    house = path.parent / values["house"]
+    if "/" in values["house"] or house.suffix in (".yaml", ".yml") or is_file(house):  # no shipped house
+        values["house"] = str(house)
     calm = values.get("record") == NO_EARTHQUAKE
     if calm and "seed" in values:
         raise BatchError(f"{place}, column seed: the column record is {NO_EARTHQUAKE}, without an earthquake")
@@ -76,16 +77,9 @@ def _row(cells, path, number):
         del values["record"]
     values |= {name: ";".join(_beside(part.strip(), path.parent) for part in values[name].split(";"))
                for name in ("record", "then") if name in values}
-    source = OptionSource(lambda column: f"{place}, column {column}:",
-                          f"the column record is {NO_EARTHQUAKE}")
+    source = OptionSource(lambda column: f"{place}, column {column}:", f"the column record is {NO_EARTHQUAKE}")
     return Row(RunOptions(quake=not calm, source=source, **values), HouseChanges(**changes),
                cells.get(DESCRIPTION, ""), place, number)
-
-
-def _house(name, folder):
-    """Name of a shipped house, or path of a house file; relative paths are relative to the table's folder."""
-    is_path = "/" in name or name.endswith((".yaml", ".yml")) or is_file(folder / name)
-    return str(folder / name) if is_path else name
 
 
 def _beside(record, folder):
@@ -125,13 +119,6 @@ def _csv_cells(line):
     return [cell.strip() or "*" for cell in next(csv.reader([line], skipinitialspace=True))]
 
 
-def _named(cells, heads, where):
-    """[(head, cell)] of a line, without the empty columns that a spreadsheet adds, whose head is '*' as well."""
-    for cell in (cell for cell, head in zip(cells, heads) if head == "*" and cell != "*"):
-        raise BatchError(f"{where}: the value '{cell}' is in a column without a name")
-    return [(head, cell) for head, cell in zip(heads, cells) if head != "*"]
-
-
 def _check_heads(heads, where):
     heads = [head for head in heads if head != "*"]
     for head in heads:
@@ -141,12 +128,6 @@ def _check_heads(heads, where):
             raise BatchError(f"{where}: column '{head}' is given twice")
     if "house" not in heads:
         raise BatchError(f"{where}: no column 'house'")
-
-
-def _resolved(cell, above, where):
-    if cell == "=" and above is None:
-        raise BatchError(f"{where}: '=' repeats the line above, and there is none")
-    return above if cell == "=" else cell.strip("'\"")
 
 
 def _check_repeated(rows):

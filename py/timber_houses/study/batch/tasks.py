@@ -14,8 +14,7 @@ from ...house.parser import house_text
 from ..driver import Task, run_missing
 from .row import BatchError, HouseChanges
 
-HOUSE = "house.yaml"
-"""House file of a row that changes its house, in the run's folder."""
+HOUSE = "house.yaml"  # house file of a row that changes its house, in the run's folder
 
 
 def run_rows(rows, folder, jobs=None, retry=False):
@@ -31,18 +30,6 @@ def task_of(row, folder):
     folder = Path(folder).absolute() / row.name
     house = row.options.house if row.changes == HouseChanges() else str(folder / HOUSE)
     return Task(folder, replace(row.options, house=house, no_frames=True))
-
-
-def write_house(row, folder):
-    """Write the house file of a row that changes its house. Raises HouseError, OSError."""
-    house, changes = row.options.house, row.changes
-    data = changed_house(house, changes.set, changes.braces, changes.strength, row.where)
-    path = Path(folder) / row.name / HOUSE
-    make_folder(path.parent)
-    write_text(path, f"# House {Path(house).stem} with changes\n{house_text(data)}")
-
-
-# --- checks -----------------------------------------------------------------------------------------------------------
 
 
 def check_rows(rows, folder):
@@ -61,7 +48,10 @@ def _check_houses(rows, folder):
     for row in rows:
         with _located(row):
             if row.changes != HouseChanges():
-                write_house(row, folder)
+                house, changes, path = row.options.house, row.changes, Path(folder) / row.name / HOUSE
+                data = changed_house(house, changes.set, changes.braces, changes.strength, row.where)
+                make_folder(path.parent)
+                write_text(path, f"# House {Path(house).stem} with changes\n{house_text(data)}")
             variant = row.options.house, row.changes, row.options.snow, row.options.walls
             if variant not in built:
                 options = task_of(row, folder).options
@@ -80,7 +70,7 @@ def _located(row):
 
 
 @lru_cache(maxsize=256)
+@noted()
 def _read_record(options):
     """Read and process a recorded ground motion; its warnings become notes, once. Raises RecordError."""
-    with noted():
-        options.motion(options.dt)
+    options.motion(options.dt)

@@ -92,14 +92,13 @@ def show(folder, run, summary):
     return [*written, summary.write(folder)]
 
 
-# --- lines for the terminal -------------------------------------------------------------------------------------------
-
-
 def lines(content, shown):
     """Outcomes, medians and ranges, and the run that is shown. shown: its summary"""
     count = len(content["finished"])
     heads = [f"{count} runs of house {shown.model}, vertices disturbed by at most {content['disturbance_m']:g} m",
-             *map(_outcome, content["outcomes"].items())]
+             *(f"{state}: {counted(share['runs'], 'run')}, {100 * share['share']:.0f} % (95 % confidence:"
+               f" {100 * share['low']:.0f} to {100 * share['high']:.0f} %)"
+               for state, share in content["outcomes"].items())]
     heads += [f"failed: {counted(len(content['errors']), 'run')}"] if content["errors"] else []
     rows = [_row(label, content["numbers"][place], text, count) for label, place, text in ROWS
             if place in content["numbers"]]
@@ -107,12 +106,6 @@ def lines(content, shown):
     reason = (f"shown: run {number}, nearest to the median of the"
               f" {'collapse time' if shown.collapsed else 'peak drift'} of the {shown.verdict} ones")
     return [*heads, COLUMNS.format("", "median", "lowest to highest", "").rstrip(), *rows, reason]
-
-
-def _outcome(item):
-    state, share = item
-    percent = [f"{100 * share[key]:.0f}" for key in ("share", "low", "high")]
-    return f"{state}: {counted(share['runs'], 'run')}, {percent[0]} % (95 % confidence: {percent[1]} to {percent[2]} %)"
 
 
 def _row(label, spread, text, count):

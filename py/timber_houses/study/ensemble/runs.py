@@ -10,8 +10,7 @@ from ..driver import LOG, Task, run_missing
 from ..probe import estimate
 from . import results
 
-FEWEST = 2
-"""Finished runs below which there are no results."""
+FEWEST = 2  # finished runs below which there are no results
 
 
 def tasks(options):
@@ -21,10 +20,8 @@ def tasks(options):
 
 
 def complete(options):
-    """Run what is missing of an ensemble and write its results.
-
-    Raises RunError, also when some runs have failed, KeyboardInterrupt after a signal, when checkpoints are saved.
-    """
+    """Run what is missing of an ensemble and write its results. Raises RunError, also when some runs have failed,
+    KeyboardInterrupt after a signal, when checkpoints are saved."""
     planned = tasks(options)
     missing = [task for task in planned if task.is_missing(True)]
     if missing:

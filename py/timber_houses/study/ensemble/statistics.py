@@ -9,15 +9,10 @@ import scipy  # submodules load on first use; a plain run needs none
 from ...base.json_types import encode, leaves
 from ...recording.verdict import STATES
 
-CONFIDENCE = 0.95
-"""Of the Clopper-Pearson intervals of shares."""
+CONFIDENCE = 0.95  # of the Clopper-Pearson intervals of shares
 FIXED = ("scenario", "model", "sentence", "record", "versions", "made_from")
 """Entries of a summary that describe the run and its origin."""
-NONE = "none"
-"""Word for what has no value, as the time of a collapse that did not happen."""
-
-
-# --- of one summary ---------------------------------------------------------------------------------------------------
+NONE = "none"  # word for what has no value, as the time of a collapse that did not happen
 
 
 def numbers(summary):
@@ -33,9 +28,6 @@ def words(summary):
     results = leaves({key: value for key, value in encode(summary).items() if key not in FIXED})
     return {place: str(value).lower() if not isinstance(value, str) else value for place, value in results
             if isinstance(value, (str, bool)) or value is None}
-
-
-# --- of all summaries -------------------------------------------------------------------------------------------------
 
 
 def spread(values):
@@ -78,8 +70,7 @@ def share(count, runs):
 
 def representative(summaries):
     """Number of the run that stands for the ensemble {number: summary}: of the most frequent, then worst outcome,
-    nearest to the median of the largest drift, of collapsed runs of the collapse time; the first of equal ones.
-    """
+    nearest to the median of the largest drift, of collapsed runs of the collapse time; the first of equal ones."""
     frequent = outcomes(summaries.values())
     outcome = max(frequent, key=lambda state: (frequent[state], STATES.index(state)))
     chosen = {number: summary for number, summary in summaries.items() if summary.verdict == outcome}

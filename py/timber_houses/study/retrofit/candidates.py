@@ -11,10 +11,8 @@ from ...house.parser import house_text
 from ..batch import HouseChanges
 
 KINDS = ("brace", "wall", "fitting", "snow")
-USUAL_KINDS = ("brace", "fitting", "snow")
-"""Without walls, which are as many as braces."""
-SHEATHING = "plywood"
-"""Type of the walls that are added."""
+USUAL_KINDS = ("brace", "fitting", "snow")  # without walls, which are as many as braces
+SHEATHING = "plywood"  # type of the walls that are added
 GROUPS = ("bay", "wall")
 """What a brace or wall measure fills: one free bay, or all free bays of a line of columns in a storey."""
 
@@ -36,14 +34,11 @@ def candidates(house, snow, kinds=USUAL_KINDS, texts=("",), group="bay"):
     """Candidates of these kinds whose names contain one of the texts. snow [m]; group: of GROUPS. Raises HouseError."""
     description = load_house(house)
     model = build_house(description, check=False)
-    measures = in_bays if group == "bay" else in_walls
-    chosen = []
-    if "brace" in kinds:
-        chosen += measures(model, free_bays(description))
-    if "wall" in kinds:
-        chosen += measures(model, buildable(house, free_wall_bays(description, SHEATHING)))
-    if "fitting" in kinds:
-        chosen += fittings(description, model)
+    bays = free_bays(description) if "brace" in kinds else []
+    bays += buildable(house, free_wall_bays(description, SHEATHING)) if "wall" in kinds else []
+    chosen = in_walls(model, bays) if group == "wall" else [
+        Candidate(name, bay_text(model, BayName.read(name)), HouseChanges(braces=(name,))) for name in bays]
+    chosen += fittings(description, model) if "fitting" in kinds else []
     if "snow" in kinds and snow > 0:
         chosen.append(Candidate("snow_cleared", "snow cleared from the roofs", options={"snow": 0.0}))
     return [candidate for candidate in chosen if any(text in candidate.name for text in texts)]
@@ -71,20 +66,14 @@ def fittings(description, model):
     """Double fittings in each group of joints that occurs and can break."""
     groups, types = description.data["joints"], description.data["joint_types"]
     kinds = {joint.kind for joint in model.joints if math.isfinite(joint.strength)}
-    return [Candidate(f"double_{name}", f"double fittings: {name.replace('_', ' ')}",
-                      HouseChanges(set=_doubled(name, group)))
-            for name, group in groups.items()
-            if group["kind"] in kinds and math.isfinite(types[group["type"]]["strength"])]
-
-
-def _doubled(name, group):
-    """Settings: twice the number of fittings, and the strength where the group has its own."""
-    return tuple(f"joints.{name}.{key}={2 * group[key]:g}" for key in ("number", "strength") if group[key] is not None)
-
-
-def in_bays(model, names):
-    """A measure for each brace or wall. names: in the order of free_bays"""
-    return [Candidate(name, bay_text(model, BayName.read(name)), HouseChanges(braces=(name,))) for name in names]
+    found = []
+    for name, group in groups.items():
+        if group["kind"] in kinds and math.isfinite(types[group["type"]]["strength"]):
+            doubled = tuple(f"joints.{name}.{key}={2 * group[key]:g}" for key in ("number", "strength")
+                            if group[key] is not None)
+            found.append(Candidate(f"double_{name}", f"double fittings: {name.replace('_', ' ')}",
+                                   HouseChanges(set=doubled)))
+    return found
 
 
 def in_walls(model, names):
@@ -98,8 +87,7 @@ def in_walls(model, names):
 
 def bay_text(model, bay):
     """'brace: main, storey 1, south wall, 3.2 m east': place of the bay's centre; 'plywood wall: ...'."""
-    xs, ys = bay_ends(model, bay)
-    along, direction = (xs, "east") if bay.along == "x" else (ys, "north")
+    along, direction = bay_ends(model, bay)["xy".index(bay.along)], {"x": "east", "y": "north"}[bay.along]
     return f"{line_text(model, bay)}, {sum(along) / 2:.1f} m {direction}"
 
 

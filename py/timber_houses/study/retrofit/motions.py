@@ -35,18 +35,14 @@ def records(folder, target=None, units=None):
     if not is_folder(folder):
         raise RunError(f"{folder}: no such folder of records")
     files = sorted(path for path in folder.iterdir()
-                   if path.suffix.lower() in RECORD_FILES and not _is_other_table(path))
+                   if path.suffix.lower() in RECORD_FILES
+                   and (path.suffix.lower() != ".csv" or sniff(read_lines(path))))  # not a list of search results
     if not files:
         raise RunError(f"{folder}: no records; files must end in {', '.join(RECORD_FILES)}")
     named = dict(_record(prefix, list(paths)) for prefix, paths in groupby(sorted(files, key=_prefix), _prefix))
     stated = {"units": units} if units else {}
     return [(name, {"record": record, **stated, **window(record, units), **(target or {})})
             for name, record in named.items()]
-
-
-def _is_other_table(path):
-    """Whether a CSV file is no record, as a list of search results."""
-    return path.suffix.lower() == ".csv" and sniff(read_lines(path)) is None
 
 
 def _prefix(path):

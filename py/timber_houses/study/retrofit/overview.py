@@ -24,7 +24,6 @@ def table_text(results):
 
 
 def summary(results):
-    """What the ranking shows, in a sentence."""
     better = [result for result in results if result.words == "better"]
     if better:
         return ("Shown to be better than the house as it is:"

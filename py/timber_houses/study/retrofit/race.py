@@ -3,8 +3,7 @@
 
 The response of a run is the logarithm of its largest storey drift; a collapse counts as a drift of CAP. A measure is
 compared with the house as it is under the same motions. The first motions select the finalists, the others test them. A
-dropped measure has no test, and costs the finalists no significance: the motions that chose them do not test them.
-"""
+dropped measure has no test, and costs the finalists no significance: the motions that chose them do not test them."""
 import math
 from dataclasses import dataclass
 
@@ -12,14 +11,11 @@ import numpy as np
 import scipy  # submodules load on first use; a plain run needs none
 
 SIGNIFICANCE = 0.05
-FINALISTS = 3
-"""Number of measures that are tested. [-]"""
+FINALISTS = 3  # number of measures that are tested. [-]
 ROUND, CUT = 4, 5
 """Number of motions of a round of the selection, and about the ratio of the measures before and after it. [-]"""
-TESTS, LEAST_TESTS = 16, 10
-"""Number of motions of the test: by default, and the least. [-]"""
-CAP, FLOOR = 1.0, 1e-4
-"""Drift that stands for a collapse, and the smallest drift that is distinguished. [-]"""
+TESTS, LEAST_TESTS = 16, 10  # number of motions of the test: by default, and the least. [-]
+CAP, FLOOR = 1.0, 1e-4  # drift that stands for a collapse, and the smallest drift that is distinguished. [-]
 NO_DIFFERENCE = "no difference can be shown"
 
 
@@ -73,12 +69,6 @@ def _not_zero(differences):
     return differences[differences != 0]
 
 
-def is_lower(differences):
-    """Whether the differences are negative by the ranks that `signed_rank` compares."""
-    differences = _not_zero(differences)
-    return float(np.sign(differences) @ scipy.stats.rankdata(np.abs(differences))) < 0
-
-
 def holm(values, count):
     """p values corrected for `count` tests by Holm's method, of which those that are not given have p = 1."""
     order, corrected = np.argsort(values), np.empty(len(values))
@@ -115,8 +105,7 @@ class Comparison:
         """Whether collapses are compared: in half of the pairs or more, a house has collapsed, and no drift is known.
 
         Which of the two houses has is of no influence, so that this choice does not change how often equal houses are
-        found different.
-        """
+        found different."""
         return 2 * int((self.collapses | self.house_collapses).sum()) >= len(self.differences)
 
     @property
@@ -130,7 +119,10 @@ class Comparison:
     @property
     def is_better(self):
         """Direction of the difference that `p` belongs to."""
-        return self.collapses.sum() < self.house_collapses.sum() if self.by_collapses else is_lower(self.differences)
+        if self.by_collapses:
+            return self.collapses.sum() < self.house_collapses.sum()
+        differences = _not_zero(self.differences)  # by the ranks that `signed_rank` compares
+        return float(np.sign(differences) @ scipy.stats.rankdata(np.abs(differences))) < 0
 
 
 def compare(entry, house, motions=None):
@@ -166,7 +158,6 @@ class Result:
 
     @property
     def motions(self):
-        """Number of motions compared."""
         return len(self.comparison.differences)
 
     @property
@@ -190,17 +181,12 @@ def ranking(entries, house, tests):
     finalists = [entry for entry in entries if entry.dropped is None and not entry.failed]
     compared = {id(entry): compare(entry, house, tests) for entry in finalists}
     corrected = dict(zip(compared, holm([one.p for one in compared.values()], len(compared))))
-    results = [_result(entry, compared.get(id(entry)) or compare(entry, house), corrected.get(id(entry)))
-               for entry in entries]
+    results = []
+    for entry in entries:
+        comparison, p = compared.get(id(entry)) or compare(entry, house), corrected.get(id(entry))
+        words = (f"a run failed: {entry.failed}" if entry.failed
+                 else f"not tested: dropped after {entry.dropped} motions" if p is None
+                 else NO_DIFFERENCE if p >= SIGNIFICANCE else "better" if comparison.is_better else "worse")
+        results.append(Result(entry, comparison, p, words))
     return sorted(results, key=lambda result: (bool(result.entry.failed), -(result.entry.dropped or math.inf),
                                                result.comparison.mean))
-
-
-def _result(entry, comparison, p):
-    if entry.failed:
-        words = f"a run failed: {entry.failed}"
-    elif p is None:
-        words = f"not tested: dropped after {entry.dropped} motions"
-    else:
-        words = NO_DIFFERENCE if p >= SIGNIFICANCE else "better" if comparison.is_better else "worse"
-    return Result(entry, comparison, p, words)

@@ -15,12 +15,9 @@ from ..probe import estimate
 from .candidates import AS_IT_IS
 from .race import Entry, cost, rounds, select
 
-PILOTS = 6
-"""Number of motions under which the house as it is runs for the choice of their strength. [-]"""
-WEAKEST, STRONGEST = 1 / 16, 16
-"""Factors on the motions between which a strength is sought. [-]"""
-FINEST = 1.2
-"""Ratio of two factors that are not distinguished: as many motions differ. [-]"""
+PILOTS = 6  # number of motions under which the house as it is runs for the choice of their strength. [-]
+WEAKEST, STRONGEST = 1 / 16, 16  # factors on the motions between which a strength is sought. [-]
+FINEST = 1.2  # ratio of two factors that are not distinguished: as many motions differ. [-]
 
 
 @dataclass
@@ -40,7 +37,6 @@ class Ranking:
 
     @property
     def plan(self):
-        """race.rounds of the ranking."""
         return rounds(len(self.motions), len(self.candidates))
 
     @property
@@ -118,7 +114,6 @@ class Ranking:
         return runs
 
     def _rows(self, pairs):
-        """Rows of [(Candidate, motion)]."""
         return [self._row(candidate, *motion) for candidate, motion in pairs]
 
     def _row(self, candidate, name, motion):
