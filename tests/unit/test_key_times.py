@@ -54,7 +54,7 @@ def test_titles_fit_their_panels(form):
     """Whole, and no wider than the panel and the gap beside it."""
     made = frames()
     made.summary = made.summary.changed(tilt_time_s=None, events=[Event(1.8, StructureFallen("entrance"))])
-    figure = sheets.sheet(made, FRONT, form)
+    figure = sheets.Stills(made).sheet(FRONT, form)
     figure.canvas.draw()
     panels = [axis for axis in figure.axes if axis.get_title(loc="left")]
     assert len(panels) >= 3

@@ -63,7 +63,7 @@ def test_halves_stay_at_their_columns(run):
     """After the fall to the north: both ends of the column's axis are within a layer of the plate that it carries."""
     shown = panels.states(run, -1)
     carried = [plate for plate in panels.plates(run) if plate.shows(shown)]
-    for plate, (solid, _) in zip(carried, sheets.sheathing(run, -1)):
+    for plate, (solid, _) in zip(carried, sheets.Stills(run).shot(-1).sheathing):
         ends = placed(np.array([[0, 0, -HEIGHT / 2], [0, 0, HEIGHT / 2]]), run.position[-1][plate.body],
                       run.orientation[-1][plate.body])
         away = np.linalg.norm(solid.vertices[:, None] - ends, axis=2).min(0)
@@ -75,7 +75,7 @@ def test_states_and_marks(run):
     for time, state, marked in ((BEFORE, "whole", 0), (PARTLY, "partly", 1), (BROKEN, "broken", 1)):
         frame = run.at(time)
         assert panels.states(run, frame)[0] == state and len(sheets.marks(run, frame)) == marked
-        assert sheets.snapshot(run, frame).states == {f"wall {state}", "wall whole"} | ({state} if marked else set())
+        assert sheets.Stills(run).shot(frame).states == {f"wall {state}", "wall whole"} | ({state} if marked else set())
     body, anchor = panels.mark_anchors(run)
     for k, sheet in enumerate(run.joints.sheet[:6]):
         for torn in (False, True):
@@ -92,7 +92,7 @@ def inside(point, corners):
 
 def colour_at(picture, window, x, z):
     left, _, _, top = window.box
-    return picture[int((top - z) * window.density), int((x - left) * window.density)] / 255
+    return picture[int((top - z) * window.density), int((x - left) * window.density), :3] / 255
 
 
 def test_still_view_shows_sheet_opening_and_tear(run):
@@ -102,7 +102,7 @@ def test_still_view_shows_sheet_opening_and_tear(run):
     window = Window(SOUTH, (2, 8, -0.5, 4), 60)
     for time, state in ((BEFORE, "whole"), (run.time[-1], "broken")):
         frame = run.at(time)
-        shown = sheets.sheathing(run, frame)
+        shown = sheets.Stills(run).shot(frame).sheathing
         south = [solid for solid, _ in shown if np.ptp(solid.vertices[:, 1]) < 1.6]
         assert {kind for _, kind in shown} == {state}
         if state == "whole":

@@ -106,7 +106,7 @@ def draw_space(ax, solids, dpi):
     window, front = Window(OBLIQUE, box, density(ax, box, dpi)), front_of(solids, OBLIQUE)
     whole, frame = (shade([s for s in solids if s.kind not in hidden], window, front, sky=1.0)[0]
                     for hidden in (("ground",), ("ground", *TRANSPARENT)))
-    ax.imshow(np.rint(OPACITY * whole + (1 - OPACITY) * frame).astype(np.uint8), extent=box,
+    ax.imshow(np.rint(OPACITY * whole + (1 - OPACITY) * frame).astype(np.uint8)[..., :3], extent=box,
               interpolation="antialiased", aspect="equal")
     ax.set_title(OBLIQUE.title, fontsize=9, loc="left")
     ax.axis("off")

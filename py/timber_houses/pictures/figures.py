@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Figures without pyplot: page, text from data, heading, PNG and PDF files."""
 import re
+import struct
+import zlib
 from textwrap import fill
 from unicodedata import east_asian_width
 
@@ -8,7 +10,6 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from PIL import Image
 
 from ..base.atomic_write import written_whole
 from ..text.english import LONGEST_TEXT, cut_line
@@ -30,21 +31,21 @@ FOOTER_SIZE, FOOTER_LETTERS, FOOTER_PLACE = 6.5, 20.0, 0.09
 POINT_LETTERS = 140.0
 """Letters per inch of usual text, times its font size. [pt/inch]"""
 REPLACEMENT = "\ufffd"
-PNG_LEVEL = 1
-"""Of zlib: Pillow's fastest."""
+PNG_LEVEL = 2
+"""Of zlib."""
 METADATA = {"CreationDate": None}
 """Of PDF files: nothing that differs between two runs of the same program."""
 
 
 class Pixels(Artist):
-    """A picture (rows, columns, 3) uint8 in the lower left corner, drawn by pixels: `imshow` resamples slowly."""
+    """A picture (rows, columns, 4) uint8 in the lower left corner, drawn by pixels: `imshow` resamples slowly."""
 
     zorder = 0
 
     def __init__(self, picture):
         super().__init__()
-        self.rows = np.full((*picture.shape[:2], 4), 255, np.uint8)
-        self.rows[..., :3] = picture[::-1]
+        self.rows = picture[::-1].copy()
+        self.rows[..., 3] = 255
 
     def draw(self, renderer):
         corner = self.axes.bbox
@@ -123,21 +124,41 @@ def _wrapped(subtitle, width):
 def save(figure, stem, endings=("png",)):
     """Write a figure as files STEM.ENDING, PNG with its own resolution; returns their paths. Raises OSError."""
     paths = [stem.with_name(f"{stem.name}.{ending}") for ending in endings]
-    fonts.apply(figure)
     for path in paths:
         with written_whole(path) as part:
             if path.suffix == ".png":
-                image_of(figure).save(part, "png", dpi=(figure.dpi, figure.dpi), compress_level=PNG_LEVEL)
+                part.write_bytes(png(image_of(figure), figure.dpi))
             else:
+                fonts.apply(figure)
                 figure.savefig(part, dpi=figure.dpi, metadata=METADATA)
     return paths
 
 
 @default_style()
 def image_of(figure):
-    """RGB image of a figure with its own resolution."""
+    """(rows, columns, 3) uint8 picture of a figure with its own resolution."""
+    fonts.apply(figure)
     figure.canvas.draw()
-    return Image.fromarray(np.ascontiguousarray(np.asarray(figure.canvas.buffer_rgba())[..., :3]))
+    return np.asarray(figure.canvas.buffer_rgba())[..., :3]
+
+
+def png(picture, dpi):
+    """PNG file of a picture (rows, columns, 3) uint8. Differences to the row above (filter 2) take a third of the time
+    of Pillow, which tries five filters on each row. dpi: resolution [1/inch]
+    """
+    rows, columns, colors = picture.shape
+    lines = np.empty((rows, 1 + colors * columns), np.uint8)
+    lines[:, 0] = 2
+    change = lines[:, 1:].reshape(picture.shape)
+    for color in range(colors):
+        values = picture[..., color]
+        change[0, :, color] = values[0]
+        np.subtract(values[1:], values[:-1], out=change[1:, :, color])
+    per_metre = round(dpi / 0.0254)
+    parts = (b"IHDR", struct.pack(">IIBBBBB", columns, rows, 8, 2, 0, 0, 0)), \
+        (b"pHYs", struct.pack(">IIB", per_metre, per_metre, 1)), (b"IDAT", zlib.compress(lines, PNG_LEVEL)), (b"IEND", b"")
+    return b"\x89PNG\r\n\x1a\n" + b"".join(
+        struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data)) for name, data in parts)
 
 
 def stem_and_endings(path):

@@ -58,13 +58,12 @@ def shade(solids, window, front, sky=SKY):
     solids  list with .vertices, .faces, .color, .kind
     front   where haze begins, as from `front_of` [m]
     sky     RGB of the background, or one number for a grey
-    Returns the RGB picture (rows, columns, 3), uint8, first row at the top, and for each pixel the coordinate towards
-    the viewer of the visible face [m], minus infinity for the background.
+    Returns the picture (rows, columns, 4), uint8, first row at the top, and for each pixel the coordinate towards the
+    viewer of the visible face [m], of the background a lower one than of any body.
     """
     sky = np.broadcast_to(np.float32(sky), 3)
     drawn, near, far = _drawn(solids, window, front, sky)
-    picture, depth = drawn.pixels(), drawn.depths()
-    return picture, np.where(depth < 1, near + (far - near) * depth, -np.inf)
+    return drawn.pixels(), near + (far - near) * drawn.depths()
 
 
 def covered(solids, window):

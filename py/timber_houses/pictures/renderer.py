@@ -164,10 +164,9 @@ class Canvas:
         self.frame.use()
         self.frame.clear(*color, alpha=0.0, depth=1.0)
 
-    def pixels(self, components=3):
-        """(height, width, components) uint8, the first row at the top."""
-        data = self.frame.read(components=components, alignment=1)
-        return np.frombuffer(data, np.uint8).reshape(*self.size[::-1], components)[::-1]
+    def pixels(self):
+        """(height, width, 4) uint8, the first row at the top."""
+        return np.frombuffer(self.frame.read(components=4), np.uint8).reshape(*self.size[::-1], 4)[::-1]
 
     def image(self):
         """RGB image of Pillow."""

@@ -2,7 +2,6 @@
 """Pictures of the report: plans of the house, the motion with its spectrum, key times of the run."""
 import numpy as np
 from matplotlib.patches import Polygon, Rectangle
-from matplotlib.transforms import Bbox
 
 from ..base import colors
 from ..motion import GAL, response_spectrum
@@ -10,7 +9,7 @@ from ..recording.history import DIRECTIONS
 from ..text.english import direction_name
 from .figures import heading_height, new_figure
 from .key_times import first_shown, last_shown
-from .sheets import Format, result, sheet
+from .sheets import Format, result
 from .style import default_style
 from .views import FRONT, SIDE
 
@@ -130,9 +129,9 @@ def style(axis, title, x):
     axis.grid(alpha=0.25)
 
 
-def shots(frames):
-    """(figure with up to six key times in the view of the largest motion; its part without the heading [inch])."""
-    direction = frames.summary.tilt_direction or frames.summary.largest_drift()[2]
-    figure = sheet(frames, FRONT if direction == "ns" else SIDE, SHOTS)
-    width, height = figure.get_size_inches()
-    return figure, Bbox([[0, 0], [width, height - heading_height(width, result(frames)) - 0.12]])
+def shots(stills):
+    """(figure with up to six key times in the view of the largest motion; height of its heading [inch])."""
+    summary = stills.frames.summary
+    direction = summary.tilt_direction or summary.largest_drift()[2]
+    figure = stills.sheet(FRONT if direction == "ns" else SIDE, SHOTS)
+    return figure, heading_height(figure.get_size_inches()[0], result(stills.frames)) + 0.12

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Sheets of pictures of a run, made from its recorded frames: key times in one view, and the end in two views."""
 from dataclasses import dataclass
+from functools import cache, partial
 
 import numpy as np
 
@@ -14,8 +15,8 @@ from .panels import mark_anchors, mark_states, plates, states
 from .provenance import provenance
 from .raster import Window, even_density, front_of
 from .style import default_style
-from .views import (VIEWS, Mark, Snapshot, Solid, box_of, draw_ends, draw_silhouette, draw_view, legend, scale_bar,
-                    silhouette)
+from .views import (MARK_SIZE, VIEWS, Mark, Snapshot, Solid, box_of, draw_ends, draw_silhouette, draw_view, legend,
+                    scale_bar, silhouette)
 
 
 @dataclass(frozen=True)
@@ -86,28 +87,69 @@ def layout(form, count, box, result):
     return Layout(count, columns, density, panel, sheet_width, heading_height(sheet_width, result))
 
 
-@default_style()
-def sheet(frames, view, form):
-    """Figure with the key times of a run in one view."""
-    times = key_times.choose(frames, form.panels)
-    start = solids(frames)
-    shots = [snapshot(frames, time.frame) for time in times]
-    box = box_of(view, start, [shot.solids for shot in shots])
-    plan = layout(form, len(shots), box, result(frames))
-    front, outlines = front_of(start, view), silhouette(start, view)
-    figure = new_figure(plan.width, plan.height, form.dpi)
-    for time, shot, corner in zip(times, shots, plan.corners()):
-        ax = add_panel(figure, corner, plan.panel, form.dpi)
-        draw_view(ax, Window(view, box, plan.density), shot, front, PANEL_MARK)
-        if time.frame:
-            draw_silhouette(ax, outlines, PANEL_MARK)
-        fitted_title(ax, f"{frames.time[time.frame]:.2f} s", time.reason, plan.panel[0])
-        draw_ends(ax, view, 7)
-        scale_bar(ax, box, 7)
-    heading(figure, f"{frames.title}. {view.title}", result(frames))
-    legend(figure, start, {state for shot in shots for state in shot.states}, 8)
-    footer(figure, provenance(frames))
-    return figure
+class Stills:
+    """Sheets of a run (Frames); what several of them show is made once."""
+
+    def __init__(self, frames):
+        self.frames, self.start, self.plates = frames, solids(frames), plates(frames)
+        self.times = cache(partial(key_times.choose, frames))
+        self.outlines = cache(partial(silhouette, self.start))
+        self.shot = cache(self._shot)
+
+    def _shot(self, frame):
+        """Snapshot of a frame."""
+        return Snapshot(solids(self.frames, frame), marks(self.frames, frame),
+                        sheathing(self.frames, frame, self.plates))
+
+    @default_style()
+    def sheet(self, view, form):
+        """Figure with the key times of a run in one view."""
+        times = self.times(form.panels)
+        shots = [self.shot(time.frame) for time in times]
+        box = box_of(view, self.start, [shot.solids for shot in shots])
+        plan = layout(form, len(shots), box, result(self.frames))
+        figure = new_figure(plan.width, plan.height, form.dpi)
+        for time, shot, corner in zip(times, shots, plan.corners()):
+            ax = add_panel(figure, corner, plan.panel, form.dpi)
+            self._draw(ax, Window(view, box, plan.density), shot, 7, PANEL_MARK, outlined=time.frame)
+            fitted_title(ax, f"{self.frames.time[time.frame]:.2f} s", time.reason, plan.panel[0])
+        self._finish(figure, view.title, shots, 8)
+        return figure
+
+    @default_style()
+    def both_views(self, frame, dpi):
+        """Figure with a frame in both views."""
+        shot = self.shot(frame)
+        boxes = [box_of(view, self.start, [shot.solids]) for view in VIEWS]
+        top = max(box[3] for box in boxes)
+        boxes = [(*box[:3], top) for box in boxes]
+        density = even_density(END_WIDTH * dpi / sum(box[1] - box[0] for box in boxes))
+        sizes = [((box[1] - box[0]) * density / dpi, (top - box[2]) * density / dpi) for box in boxes]  # [inch]
+        width = sum(width for width, _ in sizes) + 2 * MARGIN + GAP
+        height = heading_height(width, result(self.frames)) + CAPTION + sizes[0][1] + END_AXES
+        figure = new_figure(width, height, dpi)
+        left = MARGIN
+        for view, box, size in zip(VIEWS, boxes, sizes):
+            ax = add_panel(figure, (left, END_AXES), size, dpi)
+            self._draw(ax, Window(view, box, density), shot, 10)
+            ax.set_title(view.title, fontsize=12, y=1)
+            left += size[0] + GAP
+        self._finish(figure, f"After {self.frames.time[frame]:.1f} s", [shot], 10)
+        return figure
+
+    def _draw(self, ax, window, shot, size, mark_size=MARK_SIZE, outlined=True):
+        """A shot with the outline of the house at the start. size: of the texts [pt]"""
+        draw_view(ax, window, shot, front_of(self.start, window.view), mark_size)
+        if outlined:
+            draw_silhouette(ax, self.outlines(window.view), mark_size)
+        draw_ends(ax, window.view, size)
+        scale_bar(ax, window.box, size)
+
+    def _finish(self, figure, title, shots, size):
+        """Heading, legend and origin. size: of the legend [pt]"""
+        heading(figure, f"{self.frames.title}. {title}", result(self.frames))
+        legend(figure, self.start, {state for shot in shots for state in shot.states}, size)
+        footer(figure, provenance(self.frames))
 
 
 def fitted_title(ax, time, reason, width):
@@ -125,38 +167,7 @@ def result(frames):
     return sentence(frames.summary) if frames.summary else ""
 
 
-@default_style()
-def both_views(frames, frame, dpi):
-    start = solids(frames)
-    shot = snapshot(frames, frame)
-    boxes = [box_of(view, start, [shot.solids]) for view in VIEWS]
-    top = max(box[3] for box in boxes)
-    boxes = [(*box[:3], top) for box in boxes]
-    density = even_density(END_WIDTH * dpi / sum(box[1] - box[0] for box in boxes))
-    sizes = [((box[1] - box[0]) * density / dpi, (top - box[2]) * density / dpi) for box in boxes]  # [inch]
-    width = sum(width for width, _ in sizes) + 2 * MARGIN + GAP
-    height = heading_height(width, result(frames)) + CAPTION + sizes[0][1] + END_AXES
-    figure = new_figure(width, height, dpi)
-    left = MARGIN
-    for view, box, size in zip(VIEWS, boxes, sizes):
-        ax = add_panel(figure, (left, END_AXES), size, dpi)
-        draw_view(ax, Window(view, box, density), shot, front_of(start, view))
-        draw_silhouette(ax, silhouette(start, view))
-        ax.set_title(view.title, fontsize=12, y=1)
-        draw_ends(ax, view, 10)
-        scale_bar(ax, box, 10)
-        left += size[0] + GAP
-    heading(figure, f"{frames.title}. After {frames.time[frame]:.1f} s", result(frames))
-    legend(figure, start, shot.states, 10)
-    footer(figure, provenance(frames))
-    return figure
-
-
 # --- recorded frames as plain data ------------------------------------------------------------------------------------
-
-
-def snapshot(frames, frame):
-    return Snapshot(solids(frames, frame), marks(frames, frame), sheathing(frames, frame))
 
 
 def solids(frames, frame=None):
@@ -166,12 +177,12 @@ def solids(frames, frame=None):
     return [Solid(kind, corners, faces, colors.KINDS.get(kind, colors.OTHER)) for kind, corners, faces in parts]
 
 
-def sheathing(frames, frame):
-    """(Solid, state) of every plate of the wall sheets in a frame."""
+def sheathing(frames, frame, plates):
+    """(Solid, state) of every plate of the wall sheets in a frame. plates: all of the run"""
     shown, position, orientation = states(frames, frame), frames.position[frame], frames.orientation[frame]
     return [(Solid("sheet", placed(plate.vertices, position[plate.body], orientation[plate.body]), plate.faces,
                    colors.SHEETS[shown[plate.sheet]]), shown[plate.sheet])
-            for plate in plates(frames) if plate.shows(shown)]
+            for plate in plates if plate.shows(shown)]
 
 
 def marks(frames, frame):
