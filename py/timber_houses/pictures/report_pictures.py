@@ -61,7 +61,7 @@ def draw_plan(axis, frames, storey):
                       solid_capstyle="butt", zorder=1.5)
     damaged = frames.joint_places(0)[np.asarray(frames.joints.damaged, bool) & (e.storey[frames.joints.a] == storey)]
     axis.plot(*damaged[:, :2].T, "o", ms=2.5, mfc="white", mec=colors.ORANGE, mew=0.8, zorder=4)
-    axis.set_title(f"storey {storey}", fontsize=7, pad=2)
+    axis.set_title(f"storey {storey}", fontsize=7, pad=2, y=1)
     axis.set_aspect("equal")
     axis.axis("off")
 
@@ -123,7 +123,7 @@ def draw_periods(axis, summary):
 
 
 def style(axis, title, x):
-    axis.set_title(title, fontsize=7, loc="left", pad=2)
+    axis.set_title(title, fontsize=7, loc="left", pad=2, y=1)
     axis.set_xlabel(x, fontsize=6.5, labelpad=0)
     axis.tick_params(labelsize=6, pad=1.5, length=2)
     axis.grid(alpha=0.25)

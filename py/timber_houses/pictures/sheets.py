@@ -9,14 +9,14 @@ from ..base import colors
 from ..recording.record import placed, rotated
 from ..text.english import sentence
 from . import key_times
-from .figures import (A4, MARGIN, POINT_LETTERS, add_panel, drawable, fitting_size, footer, heading, heading_height,
-                      new_figure)
+from .figures import (A4, MARGIN, POINT_LETTERS, TITLE_PAD, Panel, drawable, fitting_size, footer, heading,
+                      heading_height, new_figure)
 from .panels import mark_anchors, mark_states, plates, states
 from .provenance import provenance
 from .raster import Window, even_density, front_of
 from .style import default_style
-from .views import (MARK_SIZE, VIEWS, Mark, Snapshot, Solid, box_of, draw_ends, draw_silhouette, draw_view, legend,
-                    scale_bar, silhouette)
+from .views import (INK, MARK_SIZE, VIEWS, Mark, Snapshot, Solid, box_of, draw_ends, draw_view, legend, scale_bar,
+                    silhouette)
 
 
 @dataclass(frozen=True)
@@ -110,9 +110,9 @@ class Stills:
         plan = layout(form, len(shots), box, result(self.frames))
         figure = new_figure(plan.width, plan.height, form.dpi)
         for time, shot, corner in zip(times, shots, plan.corners()):
-            ax = add_panel(figure, corner, plan.panel, form.dpi)
-            self._draw(ax, Window(view, box, plan.density), shot, 7, PANEL_MARK, outlined=time.frame)
-            fitted_title(ax, f"{self.frames.time[time.frame]:.2f} s", time.reason, plan.panel[0])
+            panel = Panel(figure, corner, Window(view, box, plan.density))
+            self._draw(panel, shot, 7, PANEL_MARK, outlined=time.frame)
+            fitted_title(panel, f"{self.frames.time[time.frame]:.2f} s", time.reason)
         self._finish(figure, view.title, shots, 8)
         return figure
 
@@ -124,26 +124,26 @@ class Stills:
         top = max(box[3] for box in boxes)
         boxes = [(*box[:3], top) for box in boxes]
         density = even_density(END_WIDTH * dpi / sum(box[1] - box[0] for box in boxes))
-        sizes = [((box[1] - box[0]) * density / dpi, (top - box[2]) * density / dpi) for box in boxes]  # [inch]
-        width = sum(width for width, _ in sizes) + 2 * MARGIN + GAP
-        height = heading_height(width, result(self.frames)) + CAPTION + sizes[0][1] + END_AXES
-        figure = new_figure(width, height, dpi)
+        width = sum(box[1] - box[0] for box in boxes) * density / dpi + 2 * MARGIN + GAP
+        high = (top - boxes[0][2]) * density / dpi
+        figure = new_figure(width, heading_height(width, result(self.frames)) + CAPTION + high + END_AXES, dpi)
         left = MARGIN
-        for view, box, size in zip(VIEWS, boxes, sizes):
-            ax = add_panel(figure, (left, END_AXES), size, dpi)
-            self._draw(ax, Window(view, box, density), shot, 10)
-            ax.set_title(view.title, fontsize=12, y=1)
-            left += size[0] + GAP
+        for view, box in zip(VIEWS, boxes):
+            panel = Panel(figure, (left, END_AXES), Window(view, box, density))
+            self._draw(panel, shot, 10)
+            panel.note(view.title, (0.5, 1), (0, TITLE_PAD), fontsize=12, ha="center")
+            left += panel.width + GAP
         self._finish(figure, f"After {self.frames.time[frame]:.1f} s", [shot], 10)
         return figure
 
-    def _draw(self, ax, window, shot, size, mark_size=MARK_SIZE, outlined=True):
+    def _draw(self, panel, shot, size, mark_size=MARK_SIZE, outlined=True):
         """A shot with the outline of the house at the start. size: of the texts [pt]"""
-        draw_view(ax, window, shot, front_of(self.start, window.view), mark_size)
-        if outlined:
-            draw_silhouette(ax, self.outlines(window.view), mark_size)
-        draw_ends(ax, window.view, size)
-        scale_bar(ax, window.box, size)
+        view = panel.window.view
+        draw_view(panel, shot, front_of(self.start, view), mark_size)
+        for line in self.outlines(view) if outlined else ():
+            panel.plot(*line.T, color=INK, linewidth=0.1 * mark_size, linestyle="dashed")
+        draw_ends(panel, size)
+        scale_bar(panel, size)
 
     def _finish(self, figure, title, shots, size):
         """Heading, legend and origin. size: of the legend [pt]"""
@@ -152,14 +152,14 @@ class Stills:
         footer(figure, provenance(self.frames))
 
 
-def fitted_title(ax, time, reason, width):
-    """Title of a panel of a width [inch] in one line or, where that would be small, in two; at last cut to fit."""
-    lines, largest = [f"{time}: {reason}"], CAPTION_SIZE
+def fitted_title(panel, time, reason):
+    """Title of a panel in one line or, where that would be small, in two; at last cut to fit."""
+    lines, largest, width = [f"{time}: {reason}"], CAPTION_SIZE, panel.width
     if fitting_size(lines[0], width, CAPTION_SIZE) < TWO_LINES_SIZE:
         lines, largest = [f"{time}:", reason], TWO_LINES_SIZE
     lines = [drawable(line, int(POINT_LETTERS * width / SMALLEST_CAPTION)) for line in lines]
     size = min(fitting_size(line, width, largest) for line in lines)
-    ax.set_title("\n".join(lines), fontsize=size, linespacing=1.0, loc="left", pad=3, y=1)
+    panel.note("\n".join(lines), (0, 1), (0, 3), fontsize=size, linespacing=1.0)
 
 
 def result(frames):

@@ -116,14 +116,12 @@ def largest(solids, axis):
     return [(s.vertices @ axis).max() for s in solids if s.kind != "ground"]
 
 
-def draw_view(ax, window, snapshot, front, mark_size=MARK_SIZE):
-    """Shaded picture of a Snapshot in a Window with ground line and damaged joints. front: from `front_of` [m]"""
-    box = window.box
-    picture, depth = shade([*snapshot.solids, *(plate for plate, _ in snapshot.sheathing)], window, front)
-    ax.add_artist(Pixels(picture))
-    ax.axhline(0, color="black", linewidth=0.16 * mark_size)
-    draw_marks(ax, window, depth, snapshot.marks, mark_size)
-    ax.set(xlim=box[:2], ylim=box[2:], xticks=[], yticks=[])
+def draw_view(panel, snapshot, front, mark_size=MARK_SIZE):
+    """Shaded picture of a Snapshot in a Panel with ground line and damaged joints. front: from `front_of` [m]"""
+    picture, depth = shade([*snapshot.solids, *(plate for plate, _ in snapshot.sheathing)], panel.window, front)
+    panel.add_artist(Pixels(picture, panel.area))
+    panel.plot(panel.window.box[:2], (0, 0), color="black", linewidth=0.16 * mark_size)
+    draw_marks(panel, depth, snapshot.marks, mark_size)
 
 
 def silhouette(start, view):
@@ -138,19 +136,14 @@ def silhouette(start, view):
     return [(line - 0.5) / OUTLINE_PIXELS + (box[0], box[2]) for line in outers]
 
 
-def draw_silhouette(ax, outlines, mark_size=MARK_SIZE):
-    for line in outlines:
-        ax.plot(*line.T, color=INK, linewidth=0.1 * mark_size, linestyle="dashed")
-
-
-def draw_marks(ax, window, depth, marks, size):
+def draw_marks(panel, depth, marks, size):
     """Marks of damaged joints, pale where a face hides them. depth: from `shade` [m]; size [pt]"""
     groups = {}
     for mark in marks:
-        place = np.dot(mark.position, window.view.right), mark.position[2]
-        groups.setdefault((mark.state, is_hidden(window, depth, mark.position)), []).append(place)
+        place = np.dot(mark.position, panel.window.view.right), mark.position[2]
+        groups.setdefault((mark.state, is_hidden(panel.window, depth, mark.position)), []).append(place)
     for (state, hidden), places in groups.items():
-        ax.plot(*np.transpose(places), linestyle="none", alpha=0.4 if hidden else 1.0, zorder=5 if hidden else 6,
+        panel.plot(*np.transpose(places), linestyle="none", alpha=0.4 if hidden else 1.0, zorder=5 if hidden else 6,
                 **marker(state, size))
 
 
@@ -168,19 +161,20 @@ def marker(state, size):
     return dict(markersize=share * size, markeredgewidth=0.1 * size, **style)
 
 
-def draw_ends(ax, view, size):
-    """Compass directions below the ends of the axes. size: of the text [pt]"""
+def draw_ends(panel, size):
+    """Compass directions below the ends of the ground. size: of the text [pt]"""
+    view = panel.window.view
     for end, name, side in ((0, view.left_end, "left"), (1, view.right_end, "right")):
-        ax.annotate(name, (end, 0), (0, -4), "axes fraction", "offset points", fontsize=size, va="top", ha=side)
+        panel.note(name, (end, 0), (0, -4), fontsize=size, va="top", ha=side)
 
 
-def scale_bar(ax, box, size):
+def scale_bar(panel, size):
     """A bar of 1, 10 or 100 m in the upper right corner, at most a sixth of the width. size: of its text [pt]"""
-    length = 10.0 ** max(0, math.floor(math.log10((box[1] - box[0]) / 6)))
-    right, up = box[1] - 0.25, box[3] - 0.35
-    ax.plot([right - length, right], [up, up], color="black", linewidth=0.3 * size, solid_capstyle="butt")
-    ax.annotate(f"{length:g} m", (right, up), (0, -0.4 * size), textcoords="offset points", fontsize=size, ha="right",
-                va="top")
+    left, right, _, top = panel.window.box
+    length = 10.0 ** max(0, math.floor(math.log10((right - left) / 6)))
+    right, up = right - 0.25, top - 0.35
+    panel.plot([right - length, right], [up, up], color="black", linewidth=0.3 * size, solid_capstyle="butt")
+    panel.note(f"{length:g} m", (right, up), (0, -0.4 * size), panel.plane, fontsize=size, ha="right", va="top")
 
 
 def kind_entries(solids):
