@@ -21,3 +21,8 @@ BLUE, ORANGE, GREEN, SKY_BLUE, AMBER, PURPLE, YELLOW, GREY, INDIGO, WINE = (
     "#882255")
 DIRECTIONS = {"ns": BLUE, "ew": ORANGE, "ud": GREY}
 """N-S, E-W, up-down."""
+
+
+def of(kind):
+    """RGB of a kind of elements."""
+    return KINDS.get(kind, OTHER)

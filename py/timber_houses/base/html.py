@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """HTML pages from the templates in data; values are escaped unless the template marks them as safe."""
+import base64
 from functools import cache
 from pathlib import Path
 
@@ -17,3 +18,8 @@ def _environment():
 def html(template, **values):
     """Text of a page. template: its path below data; values: those that it names"""
     return _environment().get_template(template).render(values)
+
+
+def embedded(content, kind):
+    """The address of an image for a page without other files. content: of its file; kind: 'png', 'jpeg'"""
+    return f"data:image/{kind};base64,{base64.b64encode(content).decode()}"

@@ -14,14 +14,14 @@ from .panels import plates_as_built
 from .raster import Window, even_density, front_of, shade
 from .report_pictures import THICK, wedge
 from .style import default_style
-from .views import (FRONT, INK, SIDE, Snapshot, Solid, View, box_of, draw_ends, draw_view, kind_entries,
-                    sheet_entries)
+from .views import (FRONT, INK, SIDE, WALL_NAMES, Snapshot, Solid, View, box_of, draw_ends, draw_view, kind_entries,
+                    wall_entries, wall_solids)
 
 WIDTH, HEIGHT, DPI = A4[1], A4[0], 300
 """Of the page [inch], and of its shaded parts [1/inch]."""
 OBLIQUE = View("space", "In space, from the north-east (roof and walls half transparent)", (-0.64, 0.768, 0.0),
                (0.704, 0.587, 0.4), "", "", (-0.307, -0.256, 0.917))
-TRANSPARENT = ("roof", "snow", "sheet")
+TRANSPARENT = ("roof", "snow", *WALL_NAMES)
 OPACITY = 0.6
 """Of these kinds of elements. [-]"""
 CELLS = ((0.06, 0.49, 0.42, 0.36), (0.55, 0.49, 0.42, 0.36), (0.06, 0.105, 0.42, 0.335), (0.55, 0.105, 0.42, 0.335))
@@ -47,12 +47,13 @@ def page(model, dpi):
     figure = new_figure(WIDTH, HEIGHT, dpi)
     solids = [solid(e) for e in model.elements]
     space, front, side, plan = CELLS
-    draw_space(figure.add_axes(space), [*solids, *(plate for plate, _ in sheathing(model))], dpi)
+    walls = sheathing(model)
+    draw_space(figure.add_axes(space), [*solids, *walls], dpi)
     for cell, view in ((front, FRONT), (side, SIDE)):
-        draw_elevation(figure, cell, view, solids, model)
+        draw_elevation(figure, cell, Snapshot(solids, walls), view, model)
     draw_plan(figure.add_axes(plan), model)
     heading(figure, f"House {model.name}", describe(model))
-    legend(figure, solids, model)
+    legend(figure, solids, walls, model)
     return figure
 
 
@@ -61,14 +62,13 @@ def solid(element):
     faces = [face.points for face in element.solid.faces]
     starts = np.cumsum([0, *map(len, faces)])
     return Solid(element.kind, np.vstack(faces), [list(range(a, b)) for a, b in zip(starts, starts[1:])],
-                 colors.KINDS.get(element.kind, colors.OTHER))
+                 colors.of(element.kind))
 
 
 def sheathing(model):
-    """(Solid, state) of the plates of wall sheets as built."""
+    """Solids of the plates of wall sheets as built."""
     plates, states = plates_as_built(model)
-    return [(Solid("sheet", plate.vertices, plate.faces, colors.SHEETS[states[plate.sheet]]), states[plate.sheet])
-            for plate in plates if plate.shows(states)]
+    return wall_solids([plate for plate in plates if plate.shows(states)], states)
 
 
 def describe(model):
@@ -102,13 +102,13 @@ def draw_space(ax, solids, dpi):
     ax.axis("off")
 
 
-def draw_elevation(figure, cell, view, solids, model):
+def draw_elevation(figure, cell, snapshot, view, model):
     """Front or side view in the middle of a cell of CELLS, with the heights of floors and ridge."""
-    box = box_of(view, solids, [])
+    box = box_of(view, snapshot.solids, [])
     window = Window(view, box, density(cell, box, figure.dpi))
     place, room = np.multiply(cell, (WIDTH, HEIGHT, WIDTH, HEIGHT)).reshape(2, 2)
     panel = Panel(figure, place + (room - np.divide(window.size, figure.dpi)) / 2, window)
-    draw_view(panel, Snapshot(solids, sheathing=sheathing(model)), front_of(solids, view))
+    draw_view(panel, snapshot, front_of(snapshot.solids, view))
     panel.note(view.title, (0, 1), (0, TITLE_PAD), fontsize=9)
     draw_ends(panel, 8)
     levels = (z for storeys in model.storey_levels.values() for pair in storeys.values() for z in pair)
@@ -208,9 +208,9 @@ def frame_damage(ax, positions):
             markeredgecolor="black", markeredgewidth=0.8, zorder=9)
 
 
-def legend(figure, solids, model):
+def legend(figure, solids, walls, model):
     symbol = partial(Line2D, [], [], linestyle="none", color="black")
-    entries = kind_entries(solids) + sheet_entries({state for _, state in sheathing(model)})
+    entries = kind_entries(solids) + wall_entries({wall.kind for wall in walls})
     for size in sorted({max(e.section) for e in model.of_kind("column")}, reverse=True):
         entries.append(symbol(marker="s", markersize=6, markerfacecolor="black" if size >= THICK else "white",
                               label=f"column {100 * size:g} cm (plan)"))

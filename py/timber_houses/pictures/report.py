@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Report of a run on one A4 page: report.html, self-contained, and report.pdf where Chromium is installed."""
-import base64
 import os
 import shlex
 import shutil
@@ -13,7 +12,7 @@ import numpy as np
 from ..base.atomic_write import write_text, written_whole
 from ..base.errors import RunError
 from ..base.gravity import weight_of
-from ..base.html import html
+from ..base.html import embedded, html
 from ..base.joint_kinds import WALL_COLUMN
 from ..base.options import words
 from ..motion import GroundMotion, pga, pgv
@@ -102,7 +101,7 @@ def page(stills):
 def picture(figure, cut=0.0):
     """A figure without its upper part of a height [inch], as the address of an image."""
     shown = image_of(figure)[round(cut * figure.dpi):]
-    return f"data:image/png;base64,{base64.b64encode(png(shown, figure.dpi)).decode()}"
+    return embedded(png(shown, figure.dpi), "png")
 
 
 def pushover_picture(summary):

@@ -3,20 +3,17 @@
 from dataclasses import dataclass
 from functools import cache, partial
 
-import numpy as np
-
 from ..base import colors
-from ..recording.record import placed, rotated
 from ..text.english import sentence
 from . import key_times
 from .figures import (A4, MARGIN, POINT_LETTERS, TITLE_PAD, Panel, drawable, fitting_size, footer, heading,
                       heading_height, new_figure)
-from .panels import mark_anchors, mark_states, plates, states
+from .panels import mark_anchors, marks, placed_plates, plates, states
 from .provenance import provenance
 from .raster import Window, even_density, front_of
 from .style import default_style
-from .views import (INK, MARK_SIZE, VIEWS, Mark, Snapshot, Solid, box_of, draw_ends, draw_view, legend, scale_bar,
-                    silhouette)
+from .views import (INK, MARK_SIZE, VIEWS, Snapshot, Solid, box_of, draw_ends, draw_view, legend, scale_bar,
+                    silhouette, wall_solids)
 
 
 @dataclass(frozen=True)
@@ -91,15 +88,19 @@ class Stills:
     """Sheets of a run (Frames); what several of them show is made once."""
 
     def __init__(self, frames):
-        self.frames, self.start, self.plates = frames, solids(frames), plates(frames)
+        self.frames, self.start = frames, solids(frames)
+        self.plates, self.anchors = plates(frames), mark_anchors(frames)
         self.times = cache(partial(key_times.choose, frames))
         self.outlines = cache(partial(silhouette, self.start))
         self.shot = cache(self._shot)
 
     def _shot(self, frame):
         """Snapshot of a frame."""
-        return Snapshot(solids(self.frames, frame), marks(self.frames, frame),
-                        sheathing(self.frames, frame, self.plates))
+        position, orientation = self.frames.position[frame], self.frames.orientation[frame]
+        shown = states(self.frames, frame)
+        return Snapshot(solids(self.frames, frame),
+                        wall_solids(placed_plates(self.plates, shown, position, orientation), shown),
+                        *marks(self.frames, self.anchors, frame, position, orientation))
 
     @default_style()
     def sheet(self, view, form):
@@ -148,7 +149,7 @@ class Stills:
     def _finish(self, figure, title, shots, size):
         """Heading, legend and origin. size: of the legend [pt]"""
         heading(figure, f"{self.frames.title}. {title}", result(self.frames))
-        legend(figure, self.start, {state for shot in shots for state in shot.states}, size)
+        legend(figure, self.start, set().union(*(shot.explained for shot in shots)), size)
         footer(figure, provenance(self.frames))
 
 
@@ -167,26 +168,8 @@ def result(frames):
     return sentence(frames.summary) if frames.summary else ""
 
 
-# --- recorded frames as plain data ------------------------------------------------------------------------------------
-
-
 def solids(frames, frame=None):
     """Solid of every element in a frame, or (None) before the first step."""
     e = frames.elements
-    parts = zip(e.kind, frames.all_corners(frame), e.faces)
-    return [Solid(kind, corners, faces, colors.KINDS.get(kind, colors.OTHER)) for kind, corners, faces in parts]
-
-
-def sheathing(frames, frame, plates):
-    """(Solid, state) of every plate of the wall sheets in a frame. plates: all of the run"""
-    shown, position, orientation = states(frames, frame), frames.position[frame], frames.orientation[frame]
-    return [(Solid("sheet", placed(plate.vertices, position[plate.body], orientation[plate.body]), plate.faces,
-                   colors.SHEETS[shown[plate.sheet]]), shown[plate.sheet])
-            for plate in plates if plate.shows(shown)]
-
-
-def marks(frames, frame):
-    """Mark of every broken or partly broken joint in a frame, one of each wall sheet."""
-    body, anchor = mark_anchors(frames)
-    positions = np.asarray(frames.position[frame])[body] + rotated(np.asarray(frames.orientation[frame])[body], anchor)
-    return [Mark(position, state) for position, state in zip(positions, mark_states(frames, frame)) if state != "whole"]
+    return [Solid(kind, corners, faces, colors.of(kind))
+            for kind, corners, faces in zip(e.kind, frames.all_corners(frame), e.faces)]
