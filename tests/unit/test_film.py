@@ -53,7 +53,7 @@ def seen(view, point, size):
 
 @pytest.mark.parametrize("name", list(camera.CAMERAS))
 def test_the_whole_house_is_in_the_picture(name):
-    points = film.corners(frames_sample.run())
+    points = stage.corners(frames_sample.run())
     view = camera.look(name, points, 16 / 9)
     clip = np.c_[points, np.ones(len(points))] @ view.matrix.T
     across, up = clip[:, 0] / clip[:, 3], clip[:, 1] / clip[:, 3]
@@ -65,7 +65,7 @@ def test_the_roof_is_where_it_should_be_and_throws_a_shadow():
     """The middle of the roof has the roof's dark grey. The ground is darker where a ray to the sun meets the roof."""
     run, size = frames_sample.run(), (640, 360)
     run.motion = None
-    points = film.corners(run)
+    points = stage.corners(run)
     view, (matrix, light) = camera.look("space", points, size[0] / size[1]), camera.sun(points)
     picture = np.asarray(stage.Stage(run, size, view, (matrix, light)).picture(0.0)).astype(int)
     e = run.elements
@@ -83,7 +83,7 @@ def test_the_ground_moves():
     """The picture is displaced to the right by a displacement to the north, seen from the east."""
     run, size = frames_sample.run(), (320, 180)
     run.motion.displacement[:] = (0.0, 1.0, 0.0)
-    points = film.corners(run)
+    points = stage.corners(run)
     view = camera.look("front", points, size[0] / size[1])
     moved = np.array(stage.Stage(run, size, view, camera.sun(points)).picture(0.5))
     run.motion.displacement[:] = 0.0

@@ -17,6 +17,7 @@ from timber_houses.base.errors import RunError
 from timber_houses.base.table import read_rows
 from timber_houses.pictures import figures, player, quantities, report, report_pictures
 from timber_houses.pictures.key_times import LAG, last_shown
+from timber_houses.pictures.sheets import Stills
 from timber_houses.recording.failures import first_failures
 from timber_houses.recording.events import Collapse, Event, SnowFallen
 from timber_houses.recording.summary import Summary
@@ -180,7 +181,7 @@ def test_hostile_names_are_text(folder):
     """Names from files cannot put markup into the page."""
     run = load(folder / "frames.h5")
     run.joints.name = ["<script>alert(1)</script>|b"] * len(run.joints.name)
-    page = report.page(run)
+    page = report.page(Stills(run))
     assert "<script" not in page and "&lt;script" in page
 
 

@@ -64,8 +64,8 @@ def pages():
     """{name: figure} of the pictures of a run, a house and a motion."""
     run = frames()
     return {
-        "sheet": sheets.sheet(run, FRONT, sheets.SCREEN),
-        "end": sheets.both_views(run, -1, 50),
+        "sheet": sheets.Stills(run).sheet(FRONT, sheets.SCREEN),
+        "end": sheets.Stills(run).both_views(-1, 50),
         "curves": curves.page(run, 50),
         "house": drawings.page(build_house(load_house("C2")), 50),
         "motion": motion_sheet.page(default_motion(), 0.05, 50),

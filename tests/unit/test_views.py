@@ -46,7 +46,7 @@ def test_place_and_size():
     may reach one pixel beyond it.
     """
     _, depth = raster.shade([cube((0, 1, 2))], Window(FRONT, BOX, 20), 0.5)
-    rows, columns = np.nonzero(np.isfinite(depth))
+    rows, columns = np.nonzero(depth > depth.min())
     assert np.allclose((rows.min(), rows.max(), columns.min(), columns.max()), (10, 29, 50, 69), atol=1)
 
 
@@ -74,9 +74,11 @@ def test_silhouette_has_outer_outlines_only():
 
 def test_marks_sit_on_the_damaged_joints():
     made = frames()
-    found = {m.state: m.position for m in sheets.marks(made, made.at(2.0))}
+    stills = sheets.Stills(made)
+    shot = stills.shot(made.at(2.0))
+    found = dict(zip(shot.states, shot.places))
     assert set(found) == {"before", "broken", "partly"} and np.allclose(found["broken"], (0.5, 0, 1))
-    assert [m.state for m in sheets.marks(made, 0)] == ["before"]
+    assert list(stills.shot(0).states) == ["before"]
 
 
 def test_snow_neither_hazes_the_house_nor_belongs_to_its_outline():
