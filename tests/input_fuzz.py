@@ -174,18 +174,12 @@ def record_texts():
         "ACCELERATION TIME SERIES IN UNITS OF G", "NPTS=   40, DT=   .0200 SEC,", " ".join(
             f"{float(v) / 981:.5E}" for v in rows)
     ]
-    peknold = [
-        "Data for El Centro 1940 North South Component (Peknold Version)", "40 points at equal spacing of 0.02 sec",
-        "The units are (g)", "", *at2[4:]
-    ]
-    jma = [
-        "SITE CODE= 1", "LAT.= 35", "LON.= 135", "SAMPLING RATE= 100Hz", "UNIT= gal(cm/s/s)",
-        "INITIAL TIME= 2004 10 23 17 56 00", "NS,EW,UD", *[f"{v},{v},{v}" for v in rows]
-    ]
-    csv = [
-        "# units: gal", "# dt: 0.01", "# samples: 40", "time [s],ns [gal],ew_gal,ud(gal)",
-        *[f"{0.01 * i:.2f},{v},{v},{v}" for i, v in enumerate(rows)]
-    ]
+    peknold = ["Data for El Centro 1940 North South Component (Peknold Version)",
+               "40 points at equal spacing of 0.02 sec", "The units are (g)", "", *at2[4:]]
+    jma = ["SITE CODE= 1", "LAT.= 35", "LON.= 135", "SAMPLING RATE= 100Hz", "UNIT= gal(cm/s/s)",
+           "INITIAL TIME= 2004 10 23 17 56 00", "NS,EW,UD", *[f"{v},{v},{v}" for v in rows]]
+    csv = ["# units: gal", "# dt: 0.01", "# samples: 40", "time [s],ns [gal],ew_gal,ud(gal)",
+           *[f"{0.01 * i:.2f},{v},{v},{v}" for i, v in enumerate(rows)]]
     return ["\n".join([*knet, counts]), *("\n".join(lines) + "\n" for lines in (at2, peknold, jma, csv))]
 
 
@@ -247,13 +241,10 @@ def damaged_trees(draw):
     return yaml.safe_dump(tree, allow_unicode=True, sort_keys=False).encode("utf-8", "surrogatepass")
 
 
-SIZES = st.sampled_from([
-    0, 1e-12, 1e-9, 1e-7, 1e-6, 1e-4, 1e-3, 0.0101, 0.02, 0.05, 0.1, 0.3, 0.49, 0.5, 1, 1.99, 2, 3, 20, 99
-]) | st.floats(0, 3)
-ROOFS = st.sampled_from([
-    "type: gable, pitch", "type: gable, ridge: x, pitch", "type: hip, pitch", "type: hip, corner_cut: 0.1, pitch",
-    "type: gable, ridge_height", "type: hip, ridge_height"
-])
+SIZES = st.sampled_from([0, 1e-12, 1e-9, 1e-7, 1e-6, 1e-4, 1e-3, 0.0101, 0.02, 0.05, 0.1, 0.3, 0.49, 0.5, 1, 1.99, 2, 3,
+                         20, 99]) | st.floats(0, 3)
+ROOFS = st.sampled_from(["type: gable, pitch", "type: gable, ridge: x, pitch", "type: hip, pitch",
+                         "type: hip, corner_cut: 0.1, pitch", "type: gable, ridge_height", "type: hip, ridge_height"])
 
 
 @st.composite

@@ -71,17 +71,9 @@ def slides_above_the_friction_angle():
         speed = block.state.vel.dot(down)
         steps(5000)
         got = (block.state.vel.dot(down) - speed) / 0.5
-        rows.append(
-            Row(
-                "2",
-                f"incline at {share:g} tan(phi): acceleration [m/s2]",
-                G * (np.sin(angle) - MU * np.cos(angle)),
-                got,
-                bound=1e-7,
-                dt=1e-4,
-                note="tolerance of the contact solver",
-            )
-        )
+        rows.append(Row("2", f"incline at {share:g} tan(phi): acceleration [m/s2]",
+                        G * (np.sin(angle) - MU * np.cos(angle)), got, bound=1e-7, dt=1e-4,
+                        note="tolerance of the contact solver"))
     return rows
 
 
@@ -135,28 +127,10 @@ def sliding_distance():
         0.9,
         note="leapfrog: velocity at a half step",
     )
-    rows.append(
-        Row(
-            "2",
-            "heat of sliding from 1 m/s [J]",
-            kinetic,
-            runs[2]["heat"],
-            bound=1e-6,
-            dt=dts[2],
-            note="energy that remains in the springs",
-        )
-    )
-    return rows + [
-        Row(
-            "2",
-            "energy balance of sliding: residual / (m v^2/2) [-]",
-            0.0,
-            runs[2]["residual"] / kinetic,
-            bound=1e-9,
-            dt=dts[2],
-            note="rounding",
-        )
-    ]
+    rows.append(Row("2", "heat of sliding from 1 m/s [J]", kinetic, runs[2]["heat"], bound=1e-6, dt=dts[2],
+                    note="energy that remains in the springs"))
+    return rows + [Row("2", "energy balance of sliding: residual / (m v^2/2) [-]", 0.0, runs[2]["residual"] / kinetic,
+                       bound=1e-9, dt=dts[2], note="rounding")]
 
 
 @case
@@ -165,14 +139,11 @@ def independent_of_position_and_direction():
     Observed: 3e-14 m and 2e-11 m (a coordinate of 1 km is rounded to 1e-13 m).
     """
     reference = sliding_run(1e-4)["end"]
-    poses = {
-        "rotated": [(turned((1, 2, 3), a), Vector3.Zero) for a in (0.7, 2.1, -1.3)],
-        "at 1 km": [(Quaternion.Identity, KM)],
-    }
+    poses = {"rotated": [(turned((1, 2, 3), a), Vector3.Zero) for a in (0.7, 2.1, -1.3)],
+             "at 1 km": [(Quaternion.Identity, KM)]}
     rows = []
     for name, where in poses.items():
         off = max((sliding_run(1e-4, orientation=q, origin=o)["end"] - reference).norm() for q, o in where)
-        rows.append(
-            Row("2", f"sliding, {name}: distance from the reference [m]", 0.0, off, bound=1e-9, dt=1e-4,
-                note="rounding"))
+        rows.append(Row("2", f"sliding, {name}: distance from the reference [m]", 0.0, off, bound=1e-9, dt=1e-4,
+                        note="rounding"))
     return rows

@@ -40,8 +40,7 @@ def test_overlap_of_cubes(gap):
     level = core.placed(np.zeros(3), np.eye(3))
     about_y = core.placed(np.zeros(3), np.array([[root, 0, root], [0, 1, 0], [-root, 0, root]]))
     about_x = np.array([[1, 0, 0], [0, root, -root], [0, root, root]])
-    placements = [(level, [0.03, 0.02, 2 * half + gap], np.eye(3)),
-                  (about_y, [0, 0, 2 * 2**0.5 * half + gap], about_x)]
+    placements = [(level, [0.03, 0.02, 2 * half + gap], np.eye(3)), (about_y, [0, 0, 2 * 2**0.5 * half + gap], about_x)]
     if gap > 0:
         placements.append((level, np.full(3, 2 * half + gap / 3**0.5), np.eye(3)))
     for below, position, rotation in placements:

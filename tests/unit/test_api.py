@@ -41,9 +41,8 @@ def test_runs_one_after_the_other_have_folders_of_their_own():
 
 def test_the_script_gives_the_same_result():
     """Bit for bit, also after another run in the session, and with the motion as an object."""
-    options = [
-        "--quake", "--scale", "2", "--duration", "0.3", "--dt", "2e-4", "--quiet", "--no-frames", "--out", "script"
-    ]
+    options = ["--quake", "--scale", "2", "--duration", "0.3", "--dt", "2e-4", "--quiet", "--no-frames", "--out",
+               "script"]
     subprocess.run(["yade", "-n", "-x", HOUSE_SCRIPT, "A", *options], check=True, capture_output=True,
                    stdin=subprocess.DEVNULL)
     th.run("B", **{**SHORT, "duration": 0.01})

@@ -61,10 +61,8 @@ def wait_for(folder, pattern, process, condition):
 
 
 def children(process):
-    return [
-        int(pid)
-        for pid in subprocess.run(["pgrep", "-P", str(process.pid)], capture_output=True, text=True).stdout.split()
-    ]
+    return [int(pid) for pid in subprocess.run(["pgrep", "-P", str(process.pid)], capture_output=True,
+                                               text=True).stdout.split()]
 
 
 @pytest.mark.rare

@@ -125,8 +125,7 @@ def test_comma_separated_values(table):
 def test_a_value_may_contain_a_number_sign(table, tmp_path):
     """A comment begins at the start of the line or after a blank, outside quotes."""
     rows = table('house,record,set # columns\nA,rec#1.csv,"a=b # c"  # first\n# none\n')
-    assert [row.cells for row in rows] == [{"house": "A", "record": str(tmp_path / "rec#1.csv"),
-                                        "set": "a=b # c"}]
+    assert [row.cells for row in rows] == [{"house": "A", "record": str(tmp_path / "rec#1.csv"), "set": "a=b # c"}]
 
 
 def test_records_are_named_as_on_the_command_line(table, tmp_path, monkeypatch):
@@ -149,10 +148,8 @@ def test_commas_are_answered_with_the_remedy(table, text, remedy):
         table(text)
 
 
-SUMMARY = {
-    "collapsed": True, "collapse_time_s": 21.5, "peak_drift": {"storey1": {"ns": 0.25, "ew": None}},
-    "broken": {"total": 7}
-}
+SUMMARY = {"collapsed": True, "collapse_time_s": 21.5, "peak_drift": {"storey1": {"ns": 0.25, "ew": None}},
+           "broken": {"total": 7}}
 
 
 def result(rows, folder, summary, errors=()):

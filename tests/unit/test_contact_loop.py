@@ -228,9 +228,7 @@ def test_refused_radius_keeps_the_geometry(radius):
 
 
 def test_hull_with_too_many_vertices():
-    points = [
-        Vector3(math.cos(0.1 * k) * math.sin(0.37 * k),
-                math.sin(0.1 * k) * math.sin(0.37 * k), math.cos(0.37 * k)) for k in range(2000)
-    ]
+    points = [Vector3(math.cos(0.1 * k) * math.sin(0.37 * k), math.sin(0.1 * k) * math.sin(0.37 * k),
+                      math.cos(0.37 * k)) for k in range(2000)]
     with pytest.raises(ValueError, match="at most 64 vertices, got 2000"):
         yt.polyhedron(points)

@@ -117,9 +117,8 @@ def test_headline_is_the_weakest_of_all_structures():
 
 def run_of(iw, collapsed, peak_gal=None, snow=0.0, broken=0):
     record = peak_gal and {"pga_gal": {"ns": peak_gal, "ew": 1.0, "ud": 5000.0}}
-    diagnosis = {
-        "structures": {"main": {"storeys": {"1": {"directions": {"ns": {"iw": iw}}}}}}, "broken_from_start": broken
-    }
+    diagnosis = {"structures": {"main": {"storeys": {"1": {"directions": {"ns": {"iw": iw}}}}}},
+                 "broken_from_start": broken}
     return sample_summary(collapsed=collapsed, earthquake=bool(peak_gal), record=record, snow_depth_m=snow,
                           diagnosis=diagnosis)
 

@@ -297,10 +297,8 @@ def test_damage_by_structure():
     time, state = states(run)[0]
     found = survey(run).by_structure(State(state.position, state.orientation, broken),
                                      {"main": replace(Judged.of(1), peak=[0.0, 0.1]), "carport": Judged.of(1)})
-    assert found == {
-        "main": Structure(peak_drift=0.1, broken=1, partly_broken=1, columns_lost=1), "carport": Structure(
-            peak_drift=0.0, broken=1)
-    }
+    assert found == {"main": Structure(peak_drift=0.1, broken=1, partly_broken=1, columns_lost=1),
+                     "carport": Structure(peak_drift=0.0, broken=1)}
 
 
 def test_a_summary_is_the_same_after_a_file(tmp_path):

@@ -31,10 +31,8 @@ def test_unchanged_is_the_same_house(tmp_path):
 
 
 def test_keys_and_list_items(tmp_path):
-    settings = [
-        "materials.timber.density=400", "plumb.drift=1e-3", "structures.main.stack[2].height=2.5",
-        "structures.main.lines[1].at=[0, 4, 8]"
-    ]
+    settings = ["materials.timber.density=400", "plumb.drift=1e-3", "structures.main.stack[2].height=2.5",
+                "structures.main.lines[1].at=[0, 4, 8]"]
     data, model = built(tmp_path, settings=settings)
     assert model.materials["timber"]["density"] == 400 and data["structures"]["main"]["lines"][0]["at"] == [0, 4, 8]
     assert data["plumb"]["drift"] == 1e-3 and data["structures"]["main"]["stack"][1]["height"] == 2.5

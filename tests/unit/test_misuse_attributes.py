@@ -105,9 +105,8 @@ def test_each_class(name):
     with pytest.raises(AttributeError) as error:
         cls(notThere=1)
     is_one_line(error, "notThere")
-    for attribute, value in {
-            "label": "mine", "dead": True, "ompThreads": 2, "color": Vector3(0, 1, 0), "wire": True, "execCount": 3
-    }.items():
+    for attribute, value in {"label": "mine", "dead": True, "ompThreads": 2, "color": Vector3(0, 1, 0), "wire": True,
+                             "execCount": 3}.items():
         if hasattr(cls, attribute):
             setattr(target, attribute, value)
             assert getattr(target, attribute) == value

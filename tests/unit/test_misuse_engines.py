@@ -97,12 +97,8 @@ def test_other_shape_and_material_in_contact():
     is_one_line(error, "Ig2", "Sphere")
 
 
-@pytest.mark.parametrize(
-    "shape",
-    [yw.Sphere(radius=0.1),
-     yw.Facet(vertices=[(0, 0, 0), (1, 0, 0), (0, 1, 0)]),
-     yw.Wall(),
-     yw.Box(extents=(1, 1, 1))])
+@pytest.mark.parametrize("shape", [yw.Sphere(radius=0.1), yw.Facet(vertices=[(0, 0, 0), (1, 0, 0), (0, 1, 0)]),
+                                   yw.Wall(), yw.Box(extents=(1, 1, 1))])
 def test_shape_without_functor(shape):
     column_on_plate()
     other = sphere()
@@ -284,10 +280,8 @@ def test_reset_time_keeps_the_monitors():
     assert len(monitor.rows) >= 2 * before - 8 > before
 
 
-@pytest.mark.parametrize("kind", [
-    yw.ForceResetter, yw.CollisionTrigger, yw.ContactLoop, yw.JointEngine, yw.UniformGravity, yw.ContactForces,
-    yw.SymplecticIntegrator, yw.HealthCheck
-])
+@pytest.mark.parametrize("kind", [yw.ForceResetter, yw.CollisionTrigger, yw.ContactLoop, yw.JointEngine,
+                                  yw.UniformGravity, yw.ContactForces, yw.SymplecticIntegrator, yw.HealthCheck])
 def test_doubled_engine(kind):
     column_on_plate()
     O.engines = [e for e in O.engines for _ in range(1 + isinstance(e, kind))]

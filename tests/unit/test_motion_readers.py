@@ -288,10 +288,8 @@ def test_numbers_of_fortran_and_the_end_of_a_dos_file(tmp_path):
     assert read_motion(path).ns / GAL == pytest.approx([-0.1416764e-3, 0.01, 2.0])
 
 
-@pytest.mark.parametrize("head", [
-    "# dt: 0.01,,\nns [gal],ew [gal],,\n", '"# dt: 0.01",,\n"ns [gal]","ew [gal]",,\n',
-    "# dt: 0.01;;\nns [gal];ew [gal];;\n"
-])
+@pytest.mark.parametrize("head", ["# dt: 0.01,,\nns [gal],ew [gal],,\n", '"# dt: 0.01",,\n"ns [gal]","ew [gal]",,\n',
+                                  "# dt: 0.01;;\nns [gal];ew [gal];;\n"])
 def test_csv_from_a_spreadsheet(tmp_path, head):
     """Quoted comments, short rows filled with delimiters."""
     rows = "1,2,,\n3,4,,\n" if "," in head else "1;2;;\n3;4;;\n"

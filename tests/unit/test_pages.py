@@ -39,9 +39,8 @@ def test_every_public_name_has_an_entry(pages):
 
 
 def test_guides_are_built(pages):
-    missing = [
-        page.stem for page in (ROOT / "docs").glob("*.md") if not (pages / "docs" / f"{page.stem}.html").is_file()
-    ]
+    missing = [page.stem
+               for page in (ROOT / "docs").glob("*.md") if not (pages / "docs" / f"{page.stem}.html").is_file()]
     assert missing == []
 
 

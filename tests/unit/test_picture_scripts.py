@@ -40,9 +40,7 @@ def test_gallery(tmp_path):
     done = run("paper/make_gallery.py", tmp_path, "--out", tmp_path / "docs")
     assert done.returncode == 0, done.stderr
     made = {path.name: path for path in (tmp_path / "docs").rglob("*.png")}
-    assert set(made) == {
-        "modelC2_snow.png", "history.png", "houseC2.png", "l_house.png", "ground_motion.png"
-    }
+    assert set(made) == {"modelC2_snow.png", "history.png", "houseC2.png", "l_house.png", "ground_motion.png"}
     assert all(5_000 < path.stat().st_size < 150_000 for path in made.values())
 
 

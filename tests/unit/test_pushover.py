@@ -43,9 +43,8 @@ def test_secant_periods():
     for axis, direction in enumerate(("ew", "ns")):
         masses, stiffness = [], []
         for storey in (1, 2):
-            own = [e.mass * (0.5 if e.kind in ("column", "brace") else 1.0) for e in model.elements
-                   if e.group == "main" and not e.fixed
-                   and (e.storey == storey or e.kind in ("column", "brace") and e.storey == storey + 1)]
+            own = [e.mass * (0.5 if e.kind in ("column", "brace") else 1.0) for e in model.elements if e.group == "main"
+                   and not e.fixed and (e.storey == storey or e.kind in ("column", "brace") and e.storey == storey + 1)]
             masses.append(sum(own))
         for storey, above in ((1, sum(masses)), (2, masses[1])):
             low, high = model.storey_levels["main"][storey]

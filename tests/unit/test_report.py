@@ -32,10 +32,8 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 def command(out, *options):
-    words = [
-        "yade", "-n", "-x", ROOT / "scripts" / "modelB1_quake.py", "--start", "17.5", "--dt", "5e-4", "--out", out,
-        "--no-views", "--quiet", *options
-    ]
+    words = ["yade", "-n", "-x", ROOT / "scripts" / "modelB1_quake.py", "--start", "17.5", "--dt", "5e-4", "--out", out,
+             "--no-views", "--quiet", *options]
     done = subprocess.run(list(map(str, words)), capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
 

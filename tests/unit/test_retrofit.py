@@ -195,10 +195,8 @@ def test_rounds():
 
 
 def run(drift, collapsed=False):
-    return {
-        "peak_drift": drift, "collapsed": collapsed, "status": "done", "wall_s": 1.0, "run": f"run{drift:g}",
-        "error": None
-    }
+    return {"peak_drift": drift, "collapsed": collapsed, "status": "done", "wall_s": 1.0, "run": f"run{drift:g}",
+            "error": None}
 
 
 def test_a_collapse_counts_as_the_largest_drift():

@@ -101,10 +101,8 @@ def test_sheets_are_cropped_to_their_panels(count, columns):
     assert lowest == pytest.approx(sheets.FOOT + sheets.GAP)
 
 
-HOSTILE = [
-    "A $\\frac{$ B", "$$$", "\\", "a\x00b\x1b[31m", "\ud800", "\u6728\u9020", "x" * 10**6, "", "{}%s",
-    "<img src=x onerror=alert(1)>"
-]
+HOSTILE = ["A $\\frac{$ B", "$$$", "\\", "a\x00b\x1b[31m", "\ud800", "\u6728\u9020", "x" * 10**6, "", "{}%s",
+           "<img src=x onerror=alert(1)>"]
 
 
 @pytest.mark.parametrize("name", HOSTILE)
