@@ -110,10 +110,8 @@ def publish(folder, name, text, heads, rows):
         write_table(folder, name, heads, rows)
 
 
-SCALING = (
-    "houses", "threads", "elements", "wall time per step [us]", "CPU time per element and step [us]",
-    "relative to one house", "speed-up", "memory per element [kB]", "above bare YADE [MB]",
-)
+SCALING = ("houses", "threads", "elements", "wall time per step [us]", "CPU time per element and step [us]",
+           "relative to one house", "speed-up", "memory per element [kB]", "above bare YADE [MB]")
 
 
 def scaling(measured):

@@ -67,10 +67,8 @@ def kernel_rows(repetitions):
     rows = []
     for b in sorted(median, key=lambda b: b["family_index"]):
         program, pair = b["run_name"].split("/", 1)
-        rows.append(
-            (program, pair, b["cpu_time"] * 1e-3, round(b["points"]), round(b["expected"]), b["normal_error"],
-             b["depth_error"])
-        )
+        rows.append((program, pair, b["cpu_time"] * 1e-3, round(b["points"]), round(b["expected"]), b["normal_error"],
+                     b["depth_error"]))
     return rows
 
 
@@ -161,10 +159,8 @@ def section(rows):
     """Section of the results page."""
     time = {(r[0], r[1]): r[2] for r in rows}
     whole, own = time[WHOLE, FACE], time[KERNEL, FACE]
-    shown = [
-        (r[1], NAMES.get(r[0], r[0]), f"{r[2]:.3f}", f"{r[3]} of {r[4]}" if r[4] else "-", f"{r[5]:.1g}", f"{r[6]:.1g}")
-        for r in sorted(rows, key=lambda r: r[1])
-    ]
+    shown = [(r[1], NAMES.get(r[0], r[0]), f"{r[2]:.3f}", f"{r[3]} of {r[4]}" if r[4] else "-", f"{r[5]:.1g}",
+              f"{r[6]:.1g}") for r in sorted(rows, key=lambda r: r[1])]
     return f"""## Contact pairs against peers
 
 CPU time per pair and step. Touching pairs overlap by 0.1 mm, near ones are 2 mm apart; normal and depth of all of them

@@ -56,10 +56,8 @@ def measure(name, command, duration):
     """Row of one run."""
     with tempfile.TemporaryDirectory() as folder:
         limit = ("--duration", f"{duration:g}") if duration else ()
-        steps, memory = spent(
-            ["yade", "-n", "-x", "-j1", SCRIPTS / command[0], *command[1:], *limit, "--out", folder, "--quiet",
-             "--no-views"]
-        )
+        steps, memory = spent(["yade", "-n", "-x", "-j1", SCRIPTS / command[0], *command[1:], *limit, "--out", folder,
+                               "--quiet", "--no-views"])
         pictures, _ = spent([SCRIPTS / "show" / "show_run.py", folder])
         summary = Summary.read(folder)
         return name, summary.elements, summary.duration_s, steps, pictures, memory, *sizes(Path(folder))

@@ -53,10 +53,8 @@ def arguments():
 
 def build_house(options, start, skipping):
     """The house in the current scene, `start` seconds into the ground motion, settled."""
-    scenario.build(
-        scenario.Scenario("step", options.house, default_motion(), options.snow, dt=options.dt,
-                          options={} if skipping else {"skip_rest": 0})
-    )
+    scenario.build(scenario.Scenario("step", options.house, default_motion(), options.snow, dt=options.dt,
+                                     options={} if skipping else {"skip_rest": 0}))
     engines.find_engine(yw.GroundMotionEngine).start = -start
     O.run(round((REST if skipping else SETTLING) / options.dt), True)
 

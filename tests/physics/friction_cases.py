@@ -43,17 +43,8 @@ def sticks_below_the_friction_angle():
     steps(5000)
     before = block.state.pos
     steps(100000)
-    return [
-        Row(
-            "2",
-            "incline at 0.98 tan(phi): creep in 10 s [m]",
-            0.0,
-            (block.state.pos - before).norm(),
-            bound=1e-12,
-            dt=1e-4,
-            note="rounding",
-        )
-    ]
+    return [Row("2", "incline at 0.98 tan(phi): creep in 10 s [m]", 0.0, (block.state.pos - before).norm(), bound=1e-12,
+                dt=1e-4, note="rounding")]
 
 
 @case
@@ -117,16 +108,8 @@ def sliding_distance():
     dts = (4e-4, 2e-4, 1e-4, 5e-5)
     runs = [sliding_run(dt) for dt in dts]
     kinetic = DENSITY * np.prod(BLOCK) / 2
-    rows = series(
-        "2",
-        "sliding distance from 1 m/s [m]",
-        1 / (2 * MU * G),
-        [r["distance"] for r in runs],
-        dts,
-        4e-4,
-        0.9,
-        note="leapfrog: velocity at a half step",
-    )
+    rows = series("2", "sliding distance from 1 m/s [m]", 1 / (2 * MU * G), [r["distance"] for r in runs], dts, 4e-4,
+                  0.9, note="leapfrog: velocity at a half step")
     rows.append(Row("2", "heat of sliding from 1 m/s [J]", kinetic, runs[2]["heat"], bound=1e-6, dt=dts[2],
                     note="energy that remains in the springs"))
     return rows + [Row("2", "energy balance of sliding: residual / (m v^2/2) [-]", 0.0, runs[2]["residual"] / kinetic,

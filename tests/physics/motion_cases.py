@@ -178,15 +178,7 @@ def free_fall():
     rest at t = 0 is late by dt / 2: order 1.
     """
     expected, dts = -G / 2, (4e-4, 2e-4, 1e-4)
-    rows = series(
-        "5",
-        "free fall for 1 s, at rest at -dt/2 [m]",
-        expected,
-        [fall(dt, 0.0) for dt in dts],
-        dts,
-        2e-4,
-        0.9,
-        note="leapfrog: velocity at a half step",
-    )
+    rows = series("5", "free fall for 1 s, at rest at -dt/2 [m]", expected, [fall(dt, 0.0) for dt in dts], dts, 2e-4,
+                  0.9, note="leapfrog: velocity at a half step")
     return rows + [Row("5", "free fall for 1 s, at rest at 0 [m]", expected, fall(1e-4, G * 1e-4 / 2), bound=1e-12,
                        dt=1e-4, note="rounding")]

@@ -160,28 +160,10 @@ def uplift():
     for _ in range(7):
         middle = (low + high) / 2
         low, high = (low, middle) if uplifts(middle) else (middle, high)
-    rows = [
-        Row(
-            "3",
-            "uplift: acceleration of the base [m/s2]",
-            expected,
-            (low + high) / 2,
-            bound=1.2e-3,
-            dt=2e-4,
-            note="tilt of the elastic base",
-        )
-    ]
+    rows = [Row("3", "uplift: acceleration of the base [m/s2]", expected, (low + high) / 2, bound=1.2e-3, dt=2e-4,
+                note="tilt of the elastic base")]
     block, start = standing_block(0.5 * expected)
     steps(20000)
     left = sum(c["normal_force"] for c in yt.contacts(0, 1) if c["position"][0] > block.state.pos[0])
-    return rows + [
-        Row(
-            "3",
-            "load on the side that lifts, at half the uplift acceleration [N]",
-            MASS * G / 4,
-            left,
-            bound=1e-3,
-            dt=1e-4,
-            note="tilt of the elastic base",
-        )
-    ]
+    return rows + [Row("3", "load on the side that lifts, at half the uplift acceleration [N]", MASS * G / 4, left,
+                       bound=1e-3, dt=1e-4, note="tilt of the elastic base")]

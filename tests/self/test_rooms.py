@@ -170,20 +170,17 @@ def test_an_import_of_research_is_found(tmp_path, line):
     assert importers_of_research(tmp_path) == ["scripts/study.py"]
 
 
-@pytest.mark.parametrize(
-    "line, room",
-    [
-        ("import yade.wrapper as yw", "yade"),
-        ("from yade import O", "yade"),
-        ("from yade_timber.plugin import compiled", "yade"),
-        ("from yade_timber import energy_terms, box", "yade"),
-        ("from ..scene import engines", "scene"),
-        ("from ..run.options import RunOptions", "run"),
-        ("import timber_houses.study.driver", "study"),
-        ("from timber_houses import scene", "scene"),
-        ("def f():\n    from ..scene.bodies import box", "scene"),
-    ],
-)
+@pytest.mark.parametrize("line, room", [
+    ("import yade.wrapper as yw", "yade"),
+    ("from yade import O", "yade"),
+    ("from yade_timber.plugin import compiled", "yade"),
+    ("from yade_timber import energy_terms, box", "yade"),
+    ("from ..scene import engines", "scene"),
+    ("from ..run.options import RunOptions", "run"),
+    ("import timber_houses.study.driver", "study"),
+    ("from timber_houses import scene", "scene"),
+    ("def f():\n    from ..scene.bodies import box", "scene"),
+])
 def test_an_offence_is_found(tmp_path, line, room):
     for name in ("pictures", "recording"):
         (tmp_path / name).mkdir()

@@ -110,16 +110,13 @@ def test_a_run_of_another_process_is_left_alone(folder, name):
     assert process.returncode == 1 and "another process" in output and {path.name for path in run.iterdir()} == {name}
 
 
-@pytest.mark.parametrize(
-    "table, place",
-    [
-        ("house scael\nB 1\n", "runs.txt:1: "),
-        ("house dt\nB 2e-4\nB 1\n", "runs.txt:3, column dt: "),
-        ("house\nB\nnope\n", "runs.txt:3: "),
-        ("house record\nB none\nB nowhere.csv\n", "runs.txt:3: "),
-        (None, "runs.txt: "),
-    ],
-)
+@pytest.mark.parametrize("table, place", [
+    ("house scael\nB 1\n", "runs.txt:1: "),
+    ("house dt\nB 2e-4\nB 1\n", "runs.txt:3, column dt: "),
+    ("house\nB\nnope\n", "runs.txt:3: "),
+    ("house record\nB none\nB nowhere.csv\n", "runs.txt:3: "),
+    (None, "runs.txt: "),
+])
 def test_tables_are_checked_before_the_first_run(folder, table, place):
     (folder / "runs.txt").write_text(table) if table else (folder / "runs.txt").unlink()
     process = start(folder)

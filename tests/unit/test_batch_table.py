@@ -80,21 +80,18 @@ def test_names_follow_house_and_record(table, tmp_path):
     assert len({row.name for row in rows.values()}) == 3 and rows["a"].name == rows["d"].name
 
 
-@pytest.mark.parametrize(
-    "text, part",
-    [
-        ("", "empty"),
-        ("house scael\nB 1\n", "runs.txt:1: unknown column 'scael', did you mean 'scale'?"),
-        ("scale\n1\n", "no column 'house'"),
-        ("house scale scale\nB 1 1\n", "column 'scale' is given twice"),
-        ("house scale\nB\n", "runs.txt:2: 1 values for 2 columns"),
-        ("house scale\n= 1\n", "'=' repeats the line above"),
-        ("house scale\n* 1\n", "runs.txt:2, column house: every run needs a house"),
-        ("house scale\nB 1\nB 1\n", "runs.txt:3: the same run as in line 2"),
-        ("house;scale\nB;1\n", "runs.txt:1: "),
-        ("house,scale\nB,1,2\n", "runs.txt:2: 3 values for 2 columns"),
-    ],
-)
+@pytest.mark.parametrize("text, part", [
+    ("", "empty"),
+    ("house scael\nB 1\n", "runs.txt:1: unknown column 'scael', did you mean 'scale'?"),
+    ("scale\n1\n", "no column 'house'"),
+    ("house scale scale\nB 1 1\n", "column 'scale' is given twice"),
+    ("house scale\nB\n", "runs.txt:2: 1 values for 2 columns"),
+    ("house scale\n= 1\n", "'=' repeats the line above"),
+    ("house scale\n* 1\n", "runs.txt:2, column house: every run needs a house"),
+    ("house scale\nB 1\nB 1\n", "runs.txt:3: the same run as in line 2"),
+    ("house;scale\nB;1\n", "runs.txt:1: "),
+    ("house,scale\nB,1,2\n", "runs.txt:2: 3 values for 2 columns"),
+])
 def test_refused_tables(table, text, part):
     with pytest.raises(BatchError) as caught:
         table(text)

@@ -91,23 +91,20 @@ def test_unknown_model(refused):
     assert "unknown house 'D9'" in refused("--duration", 0, house="D9")
 
 
-@pytest.mark.parametrize(
-    "options, said",
-    [
-        (["--azimuth", "nan"], "--azimuth nan: must be between -360 and 360"),
-        (["--pga", "0"], "--pga 0: must be >= 0.001"),
-        (["--intensity", "9"], "--intensity 9: must be between 0 and 8"),
-        (["--pga", "300", "--intensity", "6"], "--pga and --intensity exclude each other"),
-        (["--scale", "2", "--pga", "300"], "--pga and --scale exclude each other"),
-        (["--record", "x", "--seed", "1"], "--record and --seed exclude each other"),
-        (["--seed", "-1"], "--seed -1: must be"),
-        (["--units", "gal"], "--units belongs to a record; give --record"),
-        (["--start", "9", "--end", "9"], "--end 9: must be > 9 s"),
-        (["--start", "50"], "nothing between 50 and"),
-        (["--highpass", "50"], "it must lie between 0 and 50 Hz"),
-        (["--detrend", "1.5"], "--detrend"),
-    ],
-)
+@pytest.mark.parametrize("options, said", [
+    (["--azimuth", "nan"], "--azimuth nan: must be between -360 and 360"),
+    (["--pga", "0"], "--pga 0: must be >= 0.001"),
+    (["--intensity", "9"], "--intensity 9: must be between 0 and 8"),
+    (["--pga", "300", "--intensity", "6"], "--pga and --intensity exclude each other"),
+    (["--scale", "2", "--pga", "300"], "--pga and --scale exclude each other"),
+    (["--record", "x", "--seed", "1"], "--record and --seed exclude each other"),
+    (["--seed", "-1"], "--seed -1: must be"),
+    (["--units", "gal"], "--units belongs to a record; give --record"),
+    (["--start", "9", "--end", "9"], "--end 9: must be > 9 s"),
+    (["--start", "50"], "nothing between 50 and"),
+    (["--highpass", "50"], "it must lie between 0 and 50 Hz"),
+    (["--detrend", "1.5"], "--detrend"),
+])
 def test_motion_options_out_of_range(refused, options, said):
     assert said in refused(*options)
 
@@ -118,22 +115,19 @@ def test_number_of_runs(refused, value):
     assert any(part in refused("--ensemble", value) for part in ("between 2 and 999", "must be a whole number"))
 
 
-@pytest.mark.parametrize(
-    "options, said",
-    [
-        (["--ensemble", "4", "--resume"], "--ensemble and --resume exclude each other: an ensemble always continues"),
-        (["--ensemble", "4", "--or-anew"], "--ensemble and --or-anew exclude each other"),
-        (["--ensemble", "4", "--export", "scene.json"], "--ensemble and --export exclude each other"),
-        (["--report", "--no-frames"], "--report and --no-frames exclude each other"),
-        (["--ensemble", "4", "--disturb", "2"], "--ensemble and --disturb exclude each other"),
-        (["--ensemble", "4", "--checkpoint", "1"], "--ensemble and --checkpoint exclude each other"),
-        (["--ensemble", "4", "--dt", "1"], "--dt 1: must be between"),
-        (["--jobs", "2"], "--jobs 2: belongs to an ensemble"),
-        (["--ensemble", "4", "--jobs", "0"], "--jobs 0: must be between 1 and 999"),
-        (["--disturb", "0"], "--disturb 0: must be >= 1"),
-        (["--disturb", "x"], "--disturb 'x': must be a whole number"),
-    ],
-)
+@pytest.mark.parametrize("options, said", [
+    (["--ensemble", "4", "--resume"], "--ensemble and --resume exclude each other: an ensemble always continues"),
+    (["--ensemble", "4", "--or-anew"], "--ensemble and --or-anew exclude each other"),
+    (["--ensemble", "4", "--export", "scene.json"], "--ensemble and --export exclude each other"),
+    (["--report", "--no-frames"], "--report and --no-frames exclude each other"),
+    (["--ensemble", "4", "--disturb", "2"], "--ensemble and --disturb exclude each other"),
+    (["--ensemble", "4", "--checkpoint", "1"], "--ensemble and --checkpoint exclude each other"),
+    (["--ensemble", "4", "--dt", "1"], "--dt 1: must be between"),
+    (["--jobs", "2"], "--jobs 2: belongs to an ensemble"),
+    (["--ensemble", "4", "--jobs", "0"], "--jobs 0: must be between 1 and 999"),
+    (["--disturb", "0"], "--disturb 0: must be >= 1"),
+    (["--disturb", "x"], "--disturb 'x': must be a whole number"),
+])
 def test_options_of_an_ensemble(refused, options, said):
     assert said in refused(*options)
 

@@ -91,13 +91,10 @@ def test_every_reader_warns(tmp_path, write, offset, note):
     assert constant_note(motion) == note
 
 
-@pytest.mark.parametrize(
-    "processing, offset",
-    [
-        *(({"detrend": order}, offset) for order in (0, 1) for offset, _ in OFFSETS.values()),
-        ({"highpass": 0.1}, (60, 0, 0)),  # of gravity it leaves transients at both ends
-    ],
-)
+@pytest.mark.parametrize("processing, offset", [
+    *(({"detrend": order}, offset) for order in (0, 1) for offset, _ in OFFSETS.values()),
+    ({"highpass": 0.1}, (60, 0, 0)),  # of gravity it leaves transients at both ends
+])
 @pytest.mark.filterwarnings("error")
 def test_no_warning_where_it_is_removed(tmp_path, processing, offset):
     motion = MotionRequest(record=plain(tmp_path, WAVES + offset), **processing).motion(0.01)

@@ -129,17 +129,14 @@ def test_outcomes_from_the_best_to_the_worst():
                                      summary("collapsed")]).items()) == [("unsafe", 1), ("collapsed", 2)]
 
 
-@pytest.mark.parametrize(
-    "found, number",
-    [
-        ([summary(drift=d) for d in (0.1, 0.3, 0.2)], 3),
-        ([summary(drift=0.125), summary(drift=0.375),
-          summary("collapsed", 9.0, 5.0)], 1),  # equally near to 0.25: the first
-        ([summary(), *(summary("collapsed", d, t)
-                       for d, t in ((9.0, 6.0), (8.0, 5.0), (7.0, 8.0)))], 2),  # by the collapse time
-        ([summary(drift=0.1), summary("collapsed", 9.0, 5.0)], 2),  # equally frequent: the worse
-    ],
-)
+@pytest.mark.parametrize("found, number", [
+    ([summary(drift=d) for d in (0.1, 0.3, 0.2)], 3),
+    ([summary(drift=0.125), summary(drift=0.375),
+      summary("collapsed", 9.0, 5.0)], 1),  # equally near to 0.25: the first
+    ([summary(), *(summary("collapsed", d, t)
+                   for d, t in ((9.0, 6.0), (8.0, 5.0), (7.0, 8.0)))], 2),  # by the collapse time
+    ([summary(drift=0.1), summary("collapsed", 9.0, 5.0)], 2),  # equally frequent: the worse
+])
 def test_the_run_that_is_shown(found, number):
     assert statistics.representative(dict(enumerate(found, 1))) == number
 

@@ -21,18 +21,15 @@ def sphere():
     return ball
 
 
-@pytest.mark.parametrize(
-    "part, value, words",
-    [
-        ("material", None, ["material None", "TimberMat"]),
-        ("material", yw.FrictMat(), ["material FrictMat"]),
-        ("material", yw.ElementMat(), ["material ElementMat"]),
-        ("state", None, ["no state"]),
-        ("state", yw.State(), ["state.mass = 0"]),
-        ("shape", None, ["shape None"]),
-        ("shape", yw.RoundedPolyhedron(), ["no vertices"]),
-    ],
-)
+@pytest.mark.parametrize("part, value, words", [
+    ("material", None, ["material None", "TimberMat"]),
+    ("material", yw.FrictMat(), ["material FrictMat"]),
+    ("material", yw.ElementMat(), ["material ElementMat"]),
+    ("state", None, ["no state"]),
+    ("state", yw.State(), ["state.mass = 0"]),
+    ("shape", None, ["shape None"]),
+    ("shape", yw.RoundedPolyhedron(), ["no vertices"]),
+])
 def test_part_of_a_body(part, value, words):
     """Refused after contact; before the first contact the health check stops the run."""
     _, column = column_on_plate()

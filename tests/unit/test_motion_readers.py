@@ -365,23 +365,20 @@ def csv_text(head, columns=("ns", "ew", "ud"), dt=None):
     return head + "\n" + "\n".join(",".join(f"{v:.6f}" for v in row) for row in rows) + "\n"
 
 
-@pytest.mark.parametrize(
-    "text, units",
-    [
-        (csv_text("# units: gal\n# dt: 0.02\nns,ew,ud"), None),
-        (csv_text("# dt: 0.02\nns,ew,ud"), "gal"),
-        (csv_text("time,NS [gal],EW [gal],UD [gal]", dt=0.02), None),
-        (csv_text("time [s],north_gal,east_gal,up_gal", dt=0.02), None),
-        (csv_text("time [ms],ns [gal],ew [gal],ud [gal]", dt=20), None),
-        (csv_text("# unit = cm/s2\n# sampling: 50 Hz\nUD,N-S,E-W", ("ud", "ns", "ew")), "gal"),
-        (csv_text("# units: gal\n# dt: 0.02\nns;ew;ud").replace(",", ";"), None),
-        (csv_text("# units: gal\n# time,ns,ew,ud", dt=0.02), None),
-        (csv_text("# NPTS: 40, from an AT2 file\n# units: gal\n# dt: 0.02\nns,ew,ud"), None),
-        (csv_text("# units: gal\n# dt: 0.02\nns,ew,ud\n# values") + "# end of record\n", None),
-        (csv_text("# units: gal\n# dt: 0.02\nns,ew,ud").replace(",", '" , "'), None),
-        (csv_text("# dt: 0.02\n# sampling: 50 Hz\n# dt: 0.02\nns_gal,ew_gal,ud_gal"), None),
-    ],
-)
+@pytest.mark.parametrize("text, units", [
+    (csv_text("# units: gal\n# dt: 0.02\nns,ew,ud"), None),
+    (csv_text("# dt: 0.02\nns,ew,ud"), "gal"),
+    (csv_text("time,NS [gal],EW [gal],UD [gal]", dt=0.02), None),
+    (csv_text("time [s],north_gal,east_gal,up_gal", dt=0.02), None),
+    (csv_text("time [ms],ns [gal],ew [gal],ud [gal]", dt=20), None),
+    (csv_text("# unit = cm/s2\n# sampling: 50 Hz\nUD,N-S,E-W", ("ud", "ns", "ew")), "gal"),
+    (csv_text("# units: gal\n# dt: 0.02\nns;ew;ud").replace(",", ";"), None),
+    (csv_text("# units: gal\n# time,ns,ew,ud", dt=0.02), None),
+    (csv_text("# NPTS: 40, from an AT2 file\n# units: gal\n# dt: 0.02\nns,ew,ud"), None),
+    (csv_text("# units: gal\n# dt: 0.02\nns,ew,ud\n# values") + "# end of record\n", None),
+    (csv_text("# units: gal\n# dt: 0.02\nns,ew,ud").replace(",", '" , "'), None),
+    (csv_text("# dt: 0.02\n# sampling: 50 Hz\n# dt: 0.02\nns_gal,ew_gal,ud_gal"), None),
+])
 def test_plain_csv_forms(tmp_path, text, units):
     motion = read_motion(write(tmp_path, "a.csv", text), units=units)
     assert motion.dt == pytest.approx(0.02)

@@ -158,14 +158,11 @@ def test_report_of_other_folders(folder, tmp_path):
         report.write(tmp_path)
 
 
-@pytest.mark.parametrize(
-    "options, command",
-    [
-        (scripted("modelC2_quake", "C2", True, scale=1.5, dt=2e-4), "scripts/modelC2_quake.py --scale=1.5 --dt=0.0002"),
-        (RunOptions(house="my house.yaml", quake=True, snow=1.0,
-                    report=True), "scripts/house.py 'my house.yaml' --quake --snow=1.0"),
-    ],
-)
+@pytest.mark.parametrize("options, command", [
+    (scripted("modelC2_quake", "C2", True, scale=1.5, dt=2e-4), "scripts/modelC2_quake.py --scale=1.5 --dt=0.0002"),
+    (RunOptions(house="my house.yaml", quake=True, snow=1.0,
+                report=True), "scripts/house.py 'my house.yaml' --quake --snow=1.0"),
+])
 def test_command_that_repeats_the_run(options, command):
     assert report.command(options.decisive()) == f"yade -n -x {command}"
 

@@ -302,25 +302,22 @@ def test_springs_along_the_normal_only():
     yt.connect(0, 1, [tuple(state.pos)], (0, 0, 1), stiffness=(1e5, 0), slip=yt.SlipLaw(0.2, 0.3))
 
 
-@pytest.mark.parametrize(
-    "call, words",
-    [
-        (lambda: yt.box((1, 1, 1), (0, 0, 0), material=yt.TimberJoint()), "timber() or snow()"),
-        (lambda: yt.connect(0, 0, [(0, 0, 0)]), "itself"),
-        (lambda: yt.connect(0, 7, [(0, 0, 0)]), "no body 7"),
-        (lambda: yt.connect(0, 1, [(0, 0, 0)], slip={"friction_share": 0.3}), "a SlipLaw"),
-        (lambda: yt.connect(0, 1, [(0, 0, 0)], slip=yt.SlipLaw(0.09, 0.3)), "> strength / kn with"),
-        (lambda: yt.connect(0, 1, [(0, 0, 0)], slip=yt.SlipLaw(0.2, 0.2)), "> softeningStretch"),
-        (lambda: yt.connect(0, 1, [(0, 0, 0)], slip=yt.SlipLaw(0.2, 0.3, 1.5)), "in [0, 1]"),
-        (lambda: yt.connect(0, 1, [(0, 0, 0)], slip=yt.SlipLaw(0.2, np.nan)), "ultimate_stretch"),
-        (lambda: yt.connect(0, 1, [(0, 0, 0)], strength=np.inf, slip=yt.SlipLaw(0.2, 0.3)), "softeningStretch"),
-        (lambda: yt.connect(0, 1, [(0, 0, 0)], stiffness=(1e5, 2e5), slip=yt.SlipLaw(0.2, 0.3)), "equal to kn, or 0"),
-        (lambda: yt.connect(0, 1, [(0, 0, 0)], stiffness=(1e5, np.inf)), "connect: stiffness"),
-        (lambda: yt.TimberJoint(anchors1=[(0, 0, 0)], anchors2=[(0, 0, 0)], kn=1, ks=1), "strength"),
-        (lambda: yt.TimberJoint(anchors1=[(0, 0, 0)], anchors2=[(0, 0, 0)], kn=1, ks=1, strength=1, broken=[0, 0]),
-         "broken"),
-    ],
-)
+@pytest.mark.parametrize("call, words", [
+    (lambda: yt.box((1, 1, 1), (0, 0, 0), material=yt.TimberJoint()), "timber() or snow()"),
+    (lambda: yt.connect(0, 0, [(0, 0, 0)]), "itself"),
+    (lambda: yt.connect(0, 7, [(0, 0, 0)]), "no body 7"),
+    (lambda: yt.connect(0, 1, [(0, 0, 0)], slip={"friction_share": 0.3}), "a SlipLaw"),
+    (lambda: yt.connect(0, 1, [(0, 0, 0)], slip=yt.SlipLaw(0.09, 0.3)), "> strength / kn with"),
+    (lambda: yt.connect(0, 1, [(0, 0, 0)], slip=yt.SlipLaw(0.2, 0.2)), "> softeningStretch"),
+    (lambda: yt.connect(0, 1, [(0, 0, 0)], slip=yt.SlipLaw(0.2, 0.3, 1.5)), "in [0, 1]"),
+    (lambda: yt.connect(0, 1, [(0, 0, 0)], slip=yt.SlipLaw(0.2, np.nan)), "ultimate_stretch"),
+    (lambda: yt.connect(0, 1, [(0, 0, 0)], strength=np.inf, slip=yt.SlipLaw(0.2, 0.3)), "softeningStretch"),
+    (lambda: yt.connect(0, 1, [(0, 0, 0)], stiffness=(1e5, 2e5), slip=yt.SlipLaw(0.2, 0.3)), "equal to kn, or 0"),
+    (lambda: yt.connect(0, 1, [(0, 0, 0)], stiffness=(1e5, np.inf)), "connect: stiffness"),
+    (lambda: yt.TimberJoint(anchors1=[(0, 0, 0)], anchors2=[(0, 0, 0)], kn=1, ks=1), "strength"),
+    (lambda: yt.TimberJoint(anchors1=[(0, 0, 0)], anchors2=[(0, 0, 0)], kn=1, ks=1, strength=1, broken=[0, 0]),
+     "broken"),
+])
 def test_wrong_calls_say_what_is_wrong(call, words):
     column_on_plate()
     with pytest.raises((TypeError, ValueError, RuntimeError)) as refusal:
