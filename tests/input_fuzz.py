@@ -2,24 +2,17 @@
 """Damaged house files, frames from CAD, towns, records, tables and motion options for hypothesis, and the check that
 each is used or refused in one line.
 """
-
 import argparse
 import copy
 import re
 import resource
 import signal
-import sys
 import warnings
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 import yaml
 from hypothesis import strategies as st
-
-ROOT = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(ROOT / "py"))
-
 from btlx_sample import portal
 from timber_houses.base.errors import InputError
 from timber_houses.house import build_house, load_house, load_town

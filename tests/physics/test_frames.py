@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 import yade.wrapper as yw
 from yade_timber.scene.engines import find_engine
-
 from timber_houses.scene.scenario import Scenario, build
 
 O = yw.Omega()

@@ -4,7 +4,6 @@ import pytest
 from impact_cases import case
 from rows import check
 
-
 LONG = ("restitution_with_the_papers_dashpot", "snow_impact")
 
 

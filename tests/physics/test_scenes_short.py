@@ -1,11 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Short form of tests/stress/test_scenes.py (label `stress`): a scene of some families; and the judges can fail."""
-import pathlib
-import sys
 from dataclasses import replace
 from math import inf, nan
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "stress"))
 
 import numpy as np
 import pytest

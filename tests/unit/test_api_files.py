@@ -5,20 +5,17 @@ import importlib
 import inspect
 import re
 import shutil
-import sys
 from pathlib import Path
 
 import pytest
-
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "py"))
-
 import timber_houses as th
 import yade_timber as yt
 import frames_sample
 from summaries import sample_summary
 from timber_houses.base.errors import InputError
 from timber_houses.house import build_house, load_house
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 def test_packages_are_called_and_still_packages():

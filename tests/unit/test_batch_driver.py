@@ -3,7 +3,6 @@
 """scripts/study/batch.py with real runs: stopped, killed, resumed; tables and options with errors are refused before
 the first run.
 """
-
 import csv
 import os
 import shutil
@@ -14,9 +13,6 @@ import time
 from pathlib import Path
 
 import pytest
-
-sys.path.append(str(Path(__file__).resolve().parents[2] / "py"))
-
 from timber_houses.base.lock import LOCK, is_locked, locked
 from timber_houses.study.batch import read_table
 from timber_houses.study.driver import DRIVER

@@ -3,7 +3,6 @@
 """Parameter tables with Snakemake, on the cores of this machine and on a real Slurm whose daemons the test starts and
 stops.
 """
-
 import csv
 import os
 import secrets

@@ -1,17 +1,12 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Parameter tables: both formats, names of runs, refused tables, the table of results."""
-
 import csv
 import json
 import os
-import sys
 from pathlib import Path
 
 import pytest
-
-sys.path.append(str(Path(__file__).resolve().parents[2] / "py"))
-
 from summaries import sample_summary
 from timber_houses.base.errors import RunError
 from timber_houses.recording.events import Event, StructureFallen, Tilt

@@ -1,13 +1,7 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Rows of a table as runs of scripts/house.py: options, house files, checks before the first run."""
-import sys
-from pathlib import Path
-
 import pytest
-
-sys.path.append(str(Path(__file__).resolve().parents[2] / "py"))
-
 from timber_houses.house import load_house
 from timber_houses.run.options import RunOptions
 from timber_houses.study.batch import BatchError, check_rows, read_table

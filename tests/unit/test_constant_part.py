@@ -3,17 +3,12 @@
 """Constant parts of records: a warning that names mean and remedy, from every reader; none for motions as recorded, nor
 after processing.
 """
-
 import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
-
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "py"))
-
 from summaries import sample_summary
 from timber_houses.motion import (
     GAL,
@@ -31,6 +26,7 @@ from timber_houses.recording.summary import LotResult
 from timber_houses.recording.town import summary as town_summary
 from timber_houses.text.english import record, sentence
 
+ROOT = Path(__file__).resolve().parents[2]
 TIME = np.arange(0, 20, 0.01)
 BURST = 300 * np.sin(3 * np.pi * TIME) * np.exp(-(((TIME - 5) / 2) ** 2))
 """A motion without a mean. [gal]"""

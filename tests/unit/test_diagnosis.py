@@ -1,17 +1,10 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Diagnosis of houses against sums by hand. Tolerances: results are rounded to three decimals."""
-
 import dataclasses
-import sys
 from functools import cache
-from pathlib import Path
 
 import pytest
-
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "py"))
-
 from summaries import sample_summary
 from timber_houses.house import build_house, comparison, diagnose, load_house
 from timber_houses.house.diagnosis import brace_multiplier, eccentricity_factor, is_balanced, judgement

@@ -3,10 +3,8 @@
 """Disturbance of a house; medians, ranges and shares of an ensemble; its files, sentences and picture."""
 import csv
 import io
-import sys
 from contextlib import ExitStack
 from dataclasses import replace
-from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -14,10 +12,6 @@ import pytest
 import small_frames
 from frames_sample import DURATION
 from frames_sample import run as sample
-
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.append(str(ROOT / "py"))
-
 from summaries import sample_summary
 from timber_houses.base.errors import RunError
 from timber_houses.house import build_house, load_house

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The scene as JSON for other solvers: every field of it in closed form."""
-
 import json
 
 import numpy as np

@@ -1,15 +1,8 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Variants of a house: changed keys, added braces, a factor on the strength of joints; free bays."""
-
-import sys
-from pathlib import Path
-
 import pytest
 import yaml
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
-
 from timber_houses.house import HouseError, build_house, changed_house, free_bays, load_house
 
 

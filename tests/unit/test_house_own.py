@@ -1,18 +1,11 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Other houses than the paper's: gable roofs, eaves, pyramids, areas, wings, `extends`; small and large."""
-
-import sys
 import time
 import warnings
-from pathlib import Path
 
 import numpy as np
 import pytest
-
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "py"))
-
 from timber_houses.house import HouseError, build_house, changed_house, check_house, load_house
 
 SHED = """\

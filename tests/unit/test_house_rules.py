@@ -5,7 +5,6 @@ Needs no YADE.
 """
 import numpy as np
 import pytest
-
 from timber_houses.house import HouseError, build_house, diagnose, load_house, weigh
 from timber_houses.house.weight import sentence
 

@@ -2,17 +2,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Walls in house files: bays, openings, values of their springs, mistakes. Their mechanics: tests/physics/test_wall.py.
 """
-
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 import yaml
-
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "py"))
-
 from timber_houses.house.diagnosis import diagnose
 from timber_houses.house import HouseError, build_house, changed_house, free_wall_bays, load_house, weigh
 from timber_houses.house.nails import nailed_wall

@@ -1,17 +1,12 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Measures against closed forms, an independent integration, and published values of real records where available."""
-
 import os
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
-
 from timber_houses import motion as gm
 from timber_houses.motion.measures import jma_filter, lasting_level, oscillator
 

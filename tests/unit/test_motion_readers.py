@@ -4,10 +4,8 @@
 
 With YADE_TIMBER_RECORDS naming a folder of real records, those are checked against their published peaks too.
 """
-
 import os
 import re
-import sys
 import time
 import warnings
 from datetime import datetime
@@ -15,9 +13,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
-
 from timber_houses.motion import (GAL, GroundMotion, MotionRequest, RecordError, RecordWarning, read_motion, trim,
                                 write_csv)
 from timber_houses.motion.readers import find_files

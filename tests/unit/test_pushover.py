@@ -2,16 +2,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Pushover curves beside the sum of the envelopes of the wall types. Tolerance: shears are rounded to 1 N. Names of
 modes."""
-
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
-
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "py"))
-
 from test_house_plan import L_WALLS, house_file, write
 from timber_houses.house import build_house, diagnose, load_house
 from timber_houses.base.gravity import GRAVITY

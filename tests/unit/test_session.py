@@ -2,7 +2,6 @@
 """Changes to a scene during a session: bodies erased, added, released or moved, scenes saved and loaded, queries at any
 time.
 """
-
 import numpy as np
 import pytest
 import yade.wrapper as yw

@@ -9,7 +9,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-
 from timber_houses.motion import GroundMotion, write_csv
 from timber_houses.pictures import key_times
 from timber_houses.recording import frames

@@ -5,7 +5,6 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-
 from summaries import sample_summary
 from test_house_plan import house_file
 from timber_houses.house import HouseError, build_house, load_house, load_town

@@ -20,7 +20,6 @@ from timber_houses.pictures import panels, vtk
 from timber_houses.recording import frames as recorded
 from timber_houses.recording.record import placed
 
-
 SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "show" / "export_vtk.py"
 
 
