@@ -311,13 +311,6 @@ def test_swapped_engines(first, last):
     is_one_line(error, "O.engines", "must come before")
 
 
-def test_reversed_engines():
-    column_on_plate()
-    O.engines = list(reversed(O.engines))
-    with pytest.raises(RuntimeError, match="must come before"):
-        O.step()
-
-
 def test_engines_of_an_earlier_scene():
     column_on_plate()
     earlier = O.engines
@@ -328,18 +321,6 @@ def test_engines_of_an_earlier_scene():
         O.step()
     O.engines = yt.engines()
     O.step()
-
-
-@pytest.mark.parametrize("dispatcher, words", [("geomDispatcher", "Ig2"), ("physDispatcher", "Ip2"),
-                                               ("lawDispatcher", "Law2")])
-def test_loop_without_functors(dispatcher, words):
-    O.reset()
-    O.bodies.append([yt.box((1, 1, 1), (0, 0, z)) for z in (0, 1)])
-    O.engines = yt.engines()
-    getattr(find_engine(yw.ContactLoop).loop, dispatcher).functors = []
-    with pytest.raises(RuntimeError) as error:
-        O.step()
-    is_one_line(error, words)
 
 
 def test_loop_with_the_functors_of_snow_only():
