@@ -4,14 +4,15 @@ import yade_timber as yt
 from yade import O
 
 
-def column_on_plate(**options):
+def column_on_plate(steps=20, joined=True, **options):
     """A column at rest on a fixed plate, joined to it: ids of plate and column."""
     O.reset()
     plate = O.bodies.append(yt.box((2, 2, 0.2), (0, 0, -0.1), fixed=True))
     column = O.bodies.append(yt.box((0.105, 0.105, 1.0), (0, 0, 0.5)))
     O.dt, O.engines = 1e-4, yt.engines(**options)
-    yt.connect(plate, column, [(x, y, 0) for x in (-0.05, 0.05) for y in (-0.05, 0.05)])
-    O.run(20, True)
+    if joined:
+        yt.connect(plate, column, [(x, y, 0) for x in (-0.05, 0.05) for y in (-0.05, 0.05)])
+    O.run(steps, True)
     return plate, column
 
 

@@ -187,8 +187,8 @@ def test_angular_velocity_changed_in_a_run():
     body = O.bodies.append(yt.box((0.3, 0.3, 0.1), (0, 0, 2)))
     O.dt, O.engines = 2e-4, yt.engines()
     state = O.bodies[body].state
-    doors = (lambda v: setattr(state, "angVel", v), lambda v: state.updateAttrs({"angVel": v}),
-             lambda v: raw_update(state, {"angVel": v}))
+    doors = (lambda v: raw_update(state, {"angVel": v}), lambda v: state.updateAttrs({"angVel": v}),
+             lambda v: setattr(state, "angVel", v))
     for speed, door in zip((5, -2, 0), doors):
         door(Vector3(0, 0, speed))
         O.run(10, True)

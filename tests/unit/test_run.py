@@ -39,10 +39,6 @@ PUBLISHED = {  # script -> (house, earthquake, snow); DESIGN, section 4
     **{f"model{house}_snow": (house, False, True) for house in "ABC"},
     **{f"model{house}_snow": (house, True, True) for house in ("B1", "B2", "C1", "C2")},
 }
-KEYS = (
-    "scenario model earthquake snow joint_damping record dt duration_s until_collapse steps wall_s real_time_factor "
-    "threads elements joints broken tilt_time_s collapsed "
-    "collapse_time_s peak_drift residual_drift final_amplitude still_moving events energy versions").split()
 MAY_DIFFER = {"wall_s", "real_time_factor", "threads"}
 
 
@@ -110,7 +106,6 @@ def test_without_yade(script):
 
 def test_summary(straight, shove):
     found = summary(straight)
-    assert set(KEYS) <= set(found)
     assert (found["scenario"], found["model"], found["earthquake"],
             found["snow"]) == ("modelB1_quake", "B1", True, False)
     assert (found["steps"], found["duration_s"], found["dt"], found["threads"]) == (1200, 0.6, 5e-4, 1)
@@ -151,14 +146,6 @@ def test_events(straight):
     assert event["time_s"] == pytest.approx(float(first["time [s]"]), abs=1e-6) and event["facts"] == facts
     assert [event["time_s"] for event in found["events"]] == sorted(event["time_s"] for event in found["events"])
     assert found["still_moving"] is True and max(found["final_amplitude"]["storey1"].values()) > 1e-3
-
-
-def test_history(straight):
-    """Units in every column; a sample every 0.01 s."""
-    header, *rows = list(csv.reader(open(straight / "history.csv")))
-    assert header[0] == "time [s]" and all(name.endswith("]") and " [" in name for name in header)
-    times = [float(row[0]) for row in rows]
-    assert len(times) in (60, 61) and np.allclose(np.diff(times), 0.01)
 
 
 def test_energy_is_accounted_for(straight):
@@ -230,13 +217,6 @@ def test_frames_of_the_start_are_the_house(straight):
     for (a, _), place in list(zip(pair, position))[::20]:
         corners = made.corners(-1, a)
         assert (corners.min(0) - 0.02 < place).all() and (place < corners.max(0) + 0.02).all()
-
-
-@pytest.mark.rare
-def test_two_threads_do_what_one_does(tmp_path, shove, straight):
-    done = run("modelB1_quake", *SHOVED, "--record", shove, "--out", tmp_path, threads=2)
-    assert done.returncode == 0 and summary(tmp_path)["threads"] == 2, done.stderr
-    assert_same_results(straight, tmp_path)
 
 
 SHED = """extends: base

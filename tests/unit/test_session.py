@@ -2,6 +2,9 @@
 """Changes to a scene during a session: bodies erased, added, released or moved, scenes saved and loaded, queries at any
 time.
 """
+from functools import partial
+
+import column_sample
 import numpy as np
 import pytest
 import yade.wrapper as yw
@@ -12,16 +15,7 @@ from timber_houses.motion import GroundMotion
 from yade_timber.scene.engines import find_engine, gravity_now
 
 
-def column_on_plate(dt=1e-4, joined=True):
-    """The README's example at rest: ids of plate and column."""
-    O.reset()
-    plate = O.bodies.append(yt.box((2, 2, 0.2), (0, 0, -0.1), fixed=True))
-    column = O.bodies.append(yt.box((0.105, 0.105, 1.0), (0, 0, 0.5)))
-    O.dt, O.engines = dt, yt.engines()
-    if joined:
-        yt.connect(plate, column, [(x, y, 0) for x in (-0.05, 0.05) for y in (-0.05, 0.05)])
-    O.run(2000, True)
-    return plate, column
+column_on_plate = partial(column_sample.column_on_plate, steps=2000)
 
 
 def carried(plate, column):
@@ -31,7 +25,8 @@ def carried(plate, column):
 
 @pytest.mark.parametrize("number", [0, 1])
 def test_a_body_of_a_joint_taken_out(number):
-    O.bodies.erase(column_on_plate()[number])
+    pair = column_on_plate()
+    O.bodies.erase(pair[number])
     assert yt.stable_dt() == np.inf and (number == 0 or yt.energy()["kinetic"] == 0)
     O.run(100, True)
     engine = find_engine(yt.JointEngine)

@@ -25,13 +25,6 @@ def cube(centre, size=1.0, kind="column", color=(1.0, 0.0, 0.0)):
     return Solid(kind, corners, FACES, color)
 
 
-def test_faces_of_the_cube_point_outwards():
-    box = cube((0, 0, 0))
-    for face in FACES:
-        a, b, c = box.vertices[face[:3]]
-        assert np.cross(b - a, c - a) @ box.vertices[face].mean(0) > 0
-
-
 @pytest.mark.parametrize("view", [FRONT, SIDE])
 def test_nearer_hides_farther_in_any_order(view):
     near, far = cube(np.array(view.toward) * 1.0, 0.5, color=(0, 0, 1)), cube(np.array(view.toward) * -1.0, 1.0)
