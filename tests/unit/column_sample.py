@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A column at rest on a plate, and the form of messages: for tests of misuse."""
+import pytest
 import yade_timber as yt
 from yade import O
 
@@ -21,3 +22,11 @@ def is_one_line(error, *words):
     text = str(error.value)
     assert "\n" not in text and "C++" not in text and "Boost" not in text, text
     assert all(word in text for word in words), text
+
+
+def refused(*words):
+    """The next step is refused in one line with these words, and every later one."""
+    for _ in range(2):
+        with pytest.raises(RuntimeError) as error:
+            O.step()
+        is_one_line(error, *words)

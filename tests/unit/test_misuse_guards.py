@@ -7,7 +7,7 @@ import math
 import pytest
 import yade.wrapper as yw
 import yade_timber as yt
-from column_sample import column_on_plate, is_one_line
+from column_sample import column_on_plate, is_one_line, refused
 from yade import O
 from yade.minieigenHP import Vector3
 from yade_timber.scene.engines import find_engine
@@ -16,14 +16,6 @@ yt.guard()
 
 raw_update = yt.scene.attributes._update_attributes
 """YADE's own updateAttrs: a door that no rule in Python watches."""
-
-
-def refused(*words):
-    """The next step is refused in one line with these words, and every later one."""
-    for _ in range(2):
-        with pytest.raises(RuntimeError) as error:
-            O.step()
-        is_one_line(error, *words)
 
 
 # --- engines ----------------------------------------------------------------------------------------------------------
