@@ -1,78 +1,43 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Time per contact pair and step, contact points and their errors: this package, YADE's Polyhedra, Bullet and ODE.
+"""Time per contact pair and step, contact points (of four) and their errors: this package and YADE's Polyhedra.
 
-    scripts/setup --with-bench && yade -j1 -n -x scripts/bench/benchmark_peers.py [--pairs 100] [--out FOLDER]
+    yade -j1 -n -x scripts/bench/benchmark_peers.py [--pairs 100] [--out FOLDER]
 
-build/bench/benchmarks/benchmark_peers (Google Benchmark) measures Bullet, ODE (contact points alone) and the kernel of
-this package (contact points, contact law, solver). YADE's Polyhedra and this package in YADE are measured here: a step
-with many separate pairs, minus the same step without functors, divided by the number of pairs. CPU time throughout.
+A step with many separate pairs, minus the same step without functors, divided by the number of pairs; CPU time. The
+program build/bench/benchmarks/benchmark_peers (scripts/setup --with-bench) has the kernel of this package, Bullet, ODE.
 """
-import json
 import math
-import subprocess
 import sys
 from pathlib import Path
 
 import yade.wrapper as yw
 from yade import polyhedra_utils
 
-ROOT = Path(sys.argv[0]).resolve().parents[2]  # YADE runs a script without setting __file__
-sys.path.insert(0, str(ROOT / "scripts/bench"))
+sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a script without setting __file__
 
 import yade_timber as yt
-from bench_tools import cpu_per_step, interleaved, machine, parser, publish
-from tables import markdown_table
+from bench_tools import cpu_per_step, interleaved, parser, publish
 from yade.minieigenHP import Vector3
-from timber_houses.base.errors import RunError
 from timber_houses.study.options import count, run_script
 
 O = yw.Omega()
 
-PROGRAM = ROOT / "build" / "bench" / "benchmarks" / "benchmark_peers"
-FACE = "face on face"
 DEPTH = 1e-4
 """Overlap of the touching faces [m]; that of benchmarks/configurations.hpp."""
 PLATE, CUBE, ASIDE = (1.0, 1.0, 0.2), (0.3, 0.3, 0.3), (0.01, 0.02)
 """Extents of the face configuration, and horizontal position of the cube [m]."""
 SPACING = 3.0
 """Between pairs [m]."""
-WHOLE, POLYHEDRA, KERNEL = "this package in YADE", "YADE Polyhedra", "timber"
-HEADS = ("program", "pair", "time per pair and step [us]", "contact points", "expected", "error of normal [rad]",
-         "error of depth [m]")
-PAGE_HEADS = ("pair", "program", "time [us]", "contact points", "error of normal [rad]", "error of depth [m]")
-NAMES = {"timber": "this package: points, law, solver", "timber points": "this package: points alone",
-         "timber cold": "this package: points, nothing cached", "Bullet": "Bullet: points",
-         "Bullet hulls": "Bullet: points, boxes as hulls", "Bullet cold": "Bullet: points, nothing cached",
-         "ODE": "ODE: points (never cached)"}
+WHOLE, POLYHEDRA = "this package in YADE", "YADE Polyhedra"
+HEADS = ("program", "time per pair and step [us]", "contact points", "error of normal [rad]", "error of depth [m]")
 
 
 def arguments():
     made = parser(__doc__, blocks=7, steps=50)
     made.add_argument("--pairs", type=count, default=100, help="pairs in the scenes of YADE (default %(default)s)")
-    made.add_argument("--repetitions", type=count, default=5,
-                      help="repetitions of Google Benchmark; their median counts (default %(default)s)")
     return made.parse_args()
 
 
-# --- Google Benchmark -------------------------------------------------------------------------------------------------
-def kernel_rows(repetitions):
-    """Rows of the C++ program."""
-    if not PROGRAM.exists():
-        raise RunError(f"{PROGRAM} is missing: scripts/setup --with-bench builds it")
-    interleaving = "--benchmark_enable_random_interleaving=true"  # other load affects all alike
-    options = ["--benchmark_format=json", f"--benchmark_repetitions={repetitions}", "--benchmark_min_time=0.1",
-               interleaving]
-    found = json.loads(subprocess.run([PROGRAM, *options], check=True, capture_output=True, text=True).stdout)
-    median = [b for b in found["benchmarks"] if b.get("aggregate_name") == "median"]
-    rows = []
-    for b in sorted(median, key=lambda b: b["family_index"]):
-        program, pair = b["run_name"].split("/", 1)
-        rows.append((program, pair, b["cpu_time"] * 1e-3, round(b["points"]), round(b["expected"]), b["normal_error"],
-                     b["depth_error"]))
-    return rows
-
-
-# --- scenes in YADE ---------------------------------------------------------------------------------------------------
 def corners(extents):
     return [Vector3(*(s * e / 2 for s, e in zip(sign, extents)))
             for sign in ((x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1))]
@@ -151,33 +116,12 @@ def row_of(program, number, seconds):
     else:
         found = [(normal, overlap) for _, normal, overlap, _ in geometry.points]
     tilt = max(math.atan2(n.cross(Vector3(0, 0, 1)).norm(), n[2]) for n, _ in found)
-    return program, FACE, seconds * 1e6, len(found), 4, tilt, max(abs(d - DEPTH) for _, d in found)
-
-
-# --- page -------------------------------------------------------------------------------------------------------------
-def section(rows):
-    """Section of the results page."""
-    time = {(r[0], r[1]): r[2] for r in rows}
-    whole, own = time[WHOLE, FACE], time[KERNEL, FACE]
-    shown = [(r[1], NAMES.get(r[0], r[0]), f"{r[2]:.3f}", f"{r[3]} of {r[4]}" if r[4] else "-", f"{r[5]:.1g}",
-              f"{r[6]:.1g}") for r in sorted(rows, key=lambda r: r[1])]
-    return f"""## Contact pairs against peers
-
-CPU time per pair and step. Touching pairs overlap by 0.1 mm, near ones are 2 mm apart; normal and depth of all of them
-are known in closed form. Contact law and solver are included only where stated.
-For the face contact YADE's Polyhedra takes {time[POLYHEDRA, FACE] / whole:.0f} times as long as this package in YADE,
-and {time[POLYHEDRA, FACE] / own:.0f} times as long as its kernel. {machine()}.
-
-{markdown_table(PAGE_HEADS, shown)}
-The depth of Polyhedra is its equivalent depth, the cube root of the overlap volume. Bullet and ODE find one or two of
-the four points of a prism that stands on its cut end.
-"""
+    return program, seconds * 1e6, len(found), tilt, max(abs(d - DEPTH) for _, d in found)
 
 
 def main():
     options = arguments()
-    rows = yade_rows(options) + kernel_rows(options.repetitions)
-    publish(options.out, "peers", section(rows), HEADS, rows)
+    publish(options.out, "peers", "Pairs of bodies, face on face", HEADS, yade_rows(options))
 
 
 run_script(main)
