@@ -23,14 +23,10 @@ STATES = {"at rest": 0.0, "strong shaking": 18.5}
 """{state: start of the run in the time of the ground motion [s]}."""
 
 
-def parser(about, steps, blocks=None, house_name=None):
-    """ArgumentParser of a benchmark; blocks, steps, house_name: defaults of --blocks, --steps, --house (None: no such
-    option).
-    """
+def parser(about, steps, blocks=None):
+    """ArgumentParser of a benchmark of a house; blocks, steps: defaults of --blocks (None: no such option), --steps."""
     made = Parser(about)
-    if house_name:
-        made.add_argument("--house", type=house, default=house_name,
-                          help="shipped house or YAML file (default %(default)s)")
+    made.add_argument("--house", type=house, default="C2", help="shipped house or YAML file (default %(default)s)")
     if blocks:
         made.add_argument("--blocks", type=count, default=blocks,
                           help="number of repeated measurements; their median counts (default %(default)s)")

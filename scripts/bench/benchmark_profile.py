@@ -46,7 +46,7 @@ HEADS = ("part", *(f"{state} [1000 instructions a step]" for state in STATES), *
 
 
 def arguments():
-    made = parser(__doc__, steps=200, house_name="C2")
+    made = parser(__doc__, steps=200)
     made.add_argument("--state", choices=STATES, help=argparse.SUPPRESS)  # of the process that callgrind observes
     return made.parse_args()
 

@@ -34,7 +34,7 @@ HEADS = ("skipped work", "scene", "with the skip", "without", "speed-up", "large
 
 
 def arguments():
-    return parser(__doc__, blocks=9, steps=2000, house_name="C2").parse_args()
+    return parser(__doc__, blocks=9, steps=2000).parse_args()
 
 
 # --- scenes: each returns the function that is measured, with or without the skip -------------------------------------

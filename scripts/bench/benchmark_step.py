@@ -41,7 +41,7 @@ HEADS = ("state", "bodies", "interactions", "contact points", "empty step [us]",
 
 
 def arguments():
-    return parser(__doc__, blocks=15, steps=300, house_name="C2").parse_args()
+    return parser(__doc__, blocks=15, steps=300).parse_args()
 
 
 def build_house(options, start, skipping):
