@@ -118,6 +118,7 @@ def declare(name, shape):
     replace("frames/position", np.zeros((2, 3, 3), "f4")),
     replace("elements/storey", np.zeros(2, int)),
     replace("elements/faces", np.full(36, 99)),
+    replace("elements/element_start", np.array([0, 4, 12])),
     replace("elements/faces", b"text"),
     replace("joints/a", np.array([0, 1, 99])),
     replace("contacts/pair", np.full((2, 2), -1)),
