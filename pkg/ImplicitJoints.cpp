@@ -8,13 +8,17 @@ namespace {
 	Matrix3r axesOf(const Scene& scene, Body::id_t id) { return bodyAt(scene, id)->state->ori.toRotationMatrix(); }
 
 	/// Modes of a joint's bodies, of which one is free, computed again where those of the last step no longer serve.
-	/// qA, qB: orientations of the bodies; h: step [s].
-	void updateModes(TimberJoint& joint, const Quaternionr& qA, const Quaternionr& qB, const timber::SolverBody& a,
-	        const timber::SolverBody& b, Real h)
+	void updateModes(
+	        TimberJoint& joint, const Scene& scene, const timber::SolverBody& a, const timber::SolverBody& b)
 	{
-		const timber::JointState now { joint.intactSprings(), joint.stiffness(), timber::pairInverseMass(a, b),
-			a.inverseInertia.trace() + b.inverseInertia.trace(), qA.conjugate() * qB };
-		if (!joint.modes.state.fits(now, joint.modes.largestTurn(h, joint.damping(1))))
+		timber::JointState now { joint.intactSprings(), joint.stiffness(), timber::pairInverseMass(a, b),
+			a.inverseInertia.trace() + b.inverseInertia.trace() };
+		const bool isExplicit = !joint.isDamped() && !joint.isStiff() && !joint.modes.mayBeStiff(scene.dt);
+		if (isExplicit && joint.modes.state.hasSame(now)) return;
+		const Quaternionr &qA = bodyAt(scene, joint.id1)->state->ori,
+		                  &qB = bodyAt(scene, joint.id2)->state->ori;
+		now.relative = qA.conjugate() * qB;
+		if (!joint.modes.state.fits(now, joint.modes.largestTurn(scene.dt, joint.damping(1))))
 			joint.modes = timber::jointModes(a, b, qA.toRotationMatrix(), joint.springGroup(), now);
 	}
 
@@ -45,8 +49,7 @@ namespace {
 			result.axis = springAxis(joint, scene, bodies);
 			result.isStiff = scene.dt * result.axis.frequency() > timber::stiffPhase;
 		} else {
-			updateModes(joint, bodyAt(scene, joint.id1)->state->ori, bodyAt(scene, joint.id2)->state->ori,
-			        bodies[joint.id1], bodies[joint.id2], scene.dt);
+			updateModes(joint, scene, bodies[joint.id1], bodies[joint.id2]);
 			result.isStiff = joint.modes.isStiff(scene.dt);
 		}
 		return result;

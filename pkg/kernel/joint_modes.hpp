@@ -79,14 +79,18 @@ struct JointState {
 	double inverseInertia = 0; ///< traces of both bodies [1/(kg m2)]
 	Quat relative = Quat::Identity(); ///< orientation of B in the axes of A
 
-	/// Whether modes of this state serve for another one. largestTurn: of the bodies against each other [rad]
-	bool fits(const JointState& now, double largestTurn) const
+	/// Whether springs and bodies are the same but for their orientations.
+	bool hasSame(const JointState& now) const
 	{
 		return springs == now.springs && stiffness.normal == now.stiffness.normal
 		        && stiffness.shear == now.stiffness.shear && pairInverseMass == now.pairInverseMass
-		        && std::abs(inverseInertia - now.inverseInertia) <= 1e-9 * inverseInertia
-		        // Cosine of half the angle
-		        && std::abs(relative.dot(now.relative)) > 1 - largestTurn * largestTurn / 8;
+		        && std::abs(inverseInertia - now.inverseInertia) <= 1e-9 * inverseInertia;
+	}
+	/// Whether modes of this state serve for another one. largestTurn: of the bodies against each other [rad]
+	bool fits(const JointState& now, double largestTurn) const
+	{
+		// Cosine of half the angle
+		return hasSame(now) && std::abs(relative.dot(now.relative)) > 1 - largestTurn * largestTurn / 8;
 	}
 };
 
@@ -113,6 +117,15 @@ struct JointModes {
 
 	/// Whether explicit springs would not resolve a step of h [s]. Frequencies increase.
 	bool isStiff(double h) const { return h * frequencies[5] > stiffPhase; }
+	/// Whether explicit springs might not resolve a step of h [s] once the bodies have turned against each other. With
+	/// either body fixed, springs of one stiffness have the same frequencies at any turn, at most omega; with both
+	/// free, the squares of the largest ones at most add up.
+	bool mayBeStiff(double h) const
+	{
+		const auto [low, high] = std::minmax(state.stiffness.normal, state.stiffness.shear);
+		const double phase = h * frequencies[5];
+		return 2 * high * phase * phase > low * stiffPhase * stiffPhase;
+	}
 	/// Rotation of the bodies against each other up to which the modes serve. h: step [s]; returns [rad].
 	double largestTurn(double h, const JointDamping& damping) const
 	{

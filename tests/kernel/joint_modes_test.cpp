@@ -286,6 +286,31 @@ TEST(JointModes, KnowTheirErrorAfterARotation)
 	EXPECT_LT(modes.largestTurn(5e-4, { 0 }), modeError / modes.sensitivity * (1 + 1e-12));
 }
 
+/// Springs of one stiffness, turned by any angle, have at most 2^1/2 times the frequency, of two stiffnesses more: what
+/// is not stiff with that reserve is not stiff in any placement.
+TEST(JointModes, KnowWhetherATurnMayMakeThemStiff)
+{
+	Random random(31);
+	double largest = 0;
+	const auto modesOf = [](const Quat& turn, const JointStiffness& k) {
+		const Vec3 moments(0.1, 6, 6), arm(0, 1, 0); // one direction moves by far most easily
+		Assembly a { { member(10, moments, arm), member(10, moments, turn * arm) }, {} };
+		const Mat3 axes = turn.toRotationMatrix();
+		a.bodies[1].inverseInertia = axes * a.bodies[1].inverseInertia * axes.transpose();
+		a.joints.push_back({ 0, 1, square(Vec3::Zero(), 0.06, 0.05), k, Vec3::UnitZ(), { 0 } });
+		return a.modesOf(a.joints[0]);
+	};
+	for (const JointStiffness& k : { JointStiffness { 6e4, 6e4 }, JointStiffness { 6e4, 2e4 } })
+		for (int trial = 0; trial < 200; ++trial) {
+			const JointModes first = modesOf(randomRotation(random), k);
+			const double omega = modesOf(randomRotation(random), k).frequencies[5], h = 1 / omega;
+			EXPECT_TRUE(first.mayBeStiff(1.001 * h));
+			if (k.normal == k.shear) largest = std::max(largest, omega / first.frequencies[5]);
+		}
+	EXPECT_GT(largest, 1.3);
+	EXPECT_FALSE(modesOf(Quat::Identity(), { 6e4, 6e4 }).mayBeStiff(1e-6));
+}
+
 /// Visits converge with modes of a placement that is as far away as they serve.
 TEST(JointModes, ConvergeUpToTheirLargestTurn)
 {
