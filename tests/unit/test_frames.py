@@ -117,8 +117,9 @@ def declare(name, shape):
     lambda file: file["elements/position"].__setitem__((0, 0), np.nan),
     replace("frames/position", np.zeros((2, 3, 3), "f4")),
     replace("elements/storey", np.zeros(2, int)),
-    replace("elements/faces", np.full(36, 99)),
-    replace("elements/element_start", np.array([0, 4, 12])),
+    replace("elements/faces", np.full(72, 99)),
+    lambda file: [replace(f"elements/{name}_start", np.array(starts))(file)
+                  for name, starts in (("element", [0, 6, 18]), ("vertex", [0, 8, 24]))],
     replace("elements/faces", b"text"),
     replace("joints/a", np.array([0, 1, 99])),
     replace("contacts/pair", np.full((2, 2), -1)),
