@@ -84,10 +84,9 @@ def compared(runs, time):
     with tempfile.TemporaryDirectory() as folder:
         page, picture = Path(folder) / "page.html", Path(folder) / "page.png"
         player.make([(name, runs[name]) for name in COMPARED], page)
-        subprocess.run(
-            [*CHROMIUM, f"--user-data-dir={folder}/profile", f"--screenshot={picture}", f"{page.as_uri()}#t={time}"],
-            env={**os.environ, "TMPDIR": folder}, check=True, capture_output=True
-        )
+        subprocess.run([*CHROMIUM, f"--user-data-dir={folder}/profile", f"--screenshot={picture}",
+                        f"{page.as_uri()}#t={time}"], env={**os.environ, "TMPDIR": folder}, check=True,
+                       capture_output=True)
         return Image.open(picture).convert("RGB")
 
 

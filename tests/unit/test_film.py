@@ -100,10 +100,8 @@ def test_a_house_fills_at_least_half_of_the_height(size):
     stage = film.Pictures([frames_sample.run()] * 2, "space", film.Format(*size)).stages[0]
     points = np.concatenate(
         [element.vertices for element in build_house(load_house("A")).elements if element.kind != "ground"])
-    rows = [
-        seen(camera.look("space", points, stage.canvas.size[0] / stage.canvas.size[1]), point, stage.canvas.size)[0]
-        for point in points
-    ]
+    rows = [seen(camera.look("space", points, stage.canvas.size[0] / stage.canvas.size[1]), point, stage.canvas.size)[0]
+            for point in points]
     assert 0 < min(rows) and max(rows) < stage.canvas.size[1] and max(rows) - min(rows) > size[1] / 2
 
 
@@ -164,11 +162,8 @@ def test_mp4_of_two_runs_at_a_quarter_of_the_speed(tmp_path):
     runs = [frames_sample.run(name="A"), frames_sample.run(name="B", until=3.0)]
     form = film.Format(width=320, height=180, rate=10, speed=0.25)
     assert film.write(tmp_path / "x.mp4", runs, "space", form, 2.5, 3.0) == 20
-    words = [
-        "ffprobe", "-v", "error", "-count_frames", "-show_entries", "stream=width,height,nb_read_frames", "-of",
-        "csv=p=0",
-        str(tmp_path / "x.mp4")
-    ]
+    words = ["ffprobe", "-v", "error", "-count_frames", "-show_entries", "stream=width,height,nb_read_frames", "-of",
+             "csv=p=0", str(tmp_path / "x.mp4")]
     assert subprocess.run(words, capture_output=True, text=True).stdout.strip() == "320,180,40"
 
 

@@ -1,17 +1,9 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Wall sheets in the record and in every picture: plates with openings, torn when broken; nodes in the plan."""
-
-import sys
-from pathlib import Path
-
 import frames_sample
 import numpy as np
 import pytest
-
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "py"))
-
 from timber_houses.base import colors
 from timber_houses.house import build_house, load_house
 from timber_houses.pictures import camera, drawings, panels, player, sheets, stage

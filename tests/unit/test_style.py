@@ -18,10 +18,8 @@ from timber_houses.motion import default_motion
 from timber_houses.pictures import curves, drawings, figures, fonts, motion_sheet, report, report_pictures, sheets
 from timber_houses.pictures.views import FRONT
 
-OTHER_TEXTS = {
-    "white": "black", "black": "white", "DejaVu Sans": "DejaVu Serif", "sans-serif": "serif", "normal": "italic",
-    "left": "right"
-}
+OTHER_TEXTS = {"white": "black", "black": "white", "DejaVu Sans": "DejaVu Serif", "sans-serif": "serif",
+               "normal": "italic", "left": "right"}
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = ROOT / "py" / "timber_houses"
 RECORD = ROOT / "scripts" / "show" / "show_record.py"
