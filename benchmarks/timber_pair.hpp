@@ -27,12 +27,12 @@ class TimberPair {
 		bodies[1].newVelocity = bodies[1].velocity - h * gravity * configuration.normal;
 		bodies[1].newSpin = bodies[1].spin;
 		solver.begin(bodies, h, 500);
-		solver.addPair(0, 1, records.data(), records.size());
-		prepareContacts(solver, 0, properties, points);
+		solver.addPair(0, 1, records.size());
+		prepareContacts(solver, 0, properties, points, records);
 		sweeps += solver.solve(3e-3).sweeps;
 		++steps;
 		PairEnergies energies;
-		storeForces(solver, 0, properties, energies);
+		storeForces(solver, 0, properties, records, energies);
 	}
 
 public:

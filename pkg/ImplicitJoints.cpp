@@ -8,26 +8,51 @@ namespace {
 	Matrix3r axesOf(const Scene& scene, Body::id_t id) { return bodyAt(scene, id)->state->ori.toRotationMatrix(); }
 
 	/// Modes of a joint's bodies, of which one is free, computed again where those of the last step no longer serve.
-	/// qA, qB: orientations of the bodies; h: step [s].
-	void updateModes(TimberJoint& joint, const Quaternionr& qA, const Quaternionr& qB, const timber::SolverBody& a,
-	        const timber::SolverBody& b, Real h)
+	void updateModes(
+	        TimberJoint& joint, const Scene& scene, const timber::SolverBody& a, const timber::SolverBody& b)
 	{
-		const timber::JointState now { joint.intactSprings(), joint.stiffness(), timber::pairInverseMass(a, b),
-			a.inverseInertia.trace() + b.inverseInertia.trace(), qA.conjugate() * qB };
-		if (!joint.modes.state.fits(now, joint.modes.largestTurn(h, joint.damping(1))))
+		timber::JointState now { joint.intactSprings(), joint.stiffness(), timber::pairInverseMass(a, b),
+			a.inverseInertia.trace() + b.inverseInertia.trace() };
+		const bool isExplicit = !joint.isDamped() && !joint.isStiff() && !joint.modes.mayBeStiff(scene.dt);
+		if (isExplicit && joint.modes.state.hasSame(now)) return;
+		const Quaternionr &qA = bodyAt(scene, joint.id1)->state->ori,
+		                  &qB = bodyAt(scene, joint.id2)->state->ori;
+		now.relative = qA.conjugate() * qB;
+		if (!joint.modes.state.fits(now, joint.modes.largestTurn(scene.dt, joint.damping(1))))
 			joint.modes = timber::jointModes(a, b, qA.toRotationMatrix(), joint.springGroup(), now);
 	}
 
-	/// Whether two bodies have a joint that may be in the solver; with its modes.
-	bool hasModes(TimberJoint& joint, const Scene& scene, const std::vector<timber::SolverBody>& bodies)
+	/// Whether a joint holds two bodies, of which one is free.
+	bool holds(const TimberJoint& joint, const Scene& scene, const std::vector<timber::SolverBody>& bodies)
 	{
-		if (joint.isBroken() || joint.id1 == joint.id2) return false;
-		const Body *b1 = bodyAt(scene, joint.id1), *b2 = bodyAt(scene, joint.id2);
-		if (!b1 || !b2) return false;
-		const timber::SolverBody &a = bodies[joint.id1], &b = bodies[joint.id2];
-		if (timber::pairInverseMass(a, b) == 0) return false;
-		updateModes(joint, b1->state->ori, b2->state->ori, a, b, scene.dt);
-		return true;
+		return !joint.isBroken() && joint.id1 != joint.id2 && bodyAt(scene, joint.id1)
+		        && bodyAt(scene, joint.id2)
+		        && timber::pairInverseMass(bodies[joint.id1], bodies[joint.id2]) > 0;
+	}
+
+	timber::SpringAxis springAxis(
+	        const TimberJoint& joint, const Scene& scene, const std::vector<timber::SolverBody>& bodies)
+	{
+		const State &s1 = *bodyAt(scene, joint.id1)->state, &s2 = *bodyAt(scene, joint.id2)->state;
+		const size_t spring = std::find(joint.broken.begin(), joint.broken.end(), 0) - joint.broken.begin();
+		const Vector3r armB = s2.ori * joint.anchors2[spring];
+		return { bodies[joint.id1], bodies[joint.id2], s1.ori * joint.normal, s2.pos + armB - s1.pos, armB,
+			joint.stiffness().normal };
+	}
+
+	/// A joint that may be in the solver, with its modes. isStiff: whether the step does not resolve its springs.
+	ImplicitJoint withModes(TimberJoint& joint, size_t index, const JointEngine& engine, const Scene& scene,
+	        const std::vector<timber::SolverBody>& bodies)
+	{
+		ImplicitJoint result { &joint, index, false, engine.lastForce(index).tangent, joint.isAxial(), {} };
+		if (result.isAxial) {
+			result.axis = springAxis(joint, scene, bodies);
+			result.isStiff = scene.dt * result.axis.frequency() > timber::stiffPhase;
+		} else {
+			updateModes(joint, scene, bodies[joint.id1], bodies[joint.id2]);
+			result.isStiff = joint.modes.isStiff(scene.dt);
+		}
+		return result;
 	}
 
 	/// Energy by which a yielding joint errs in this step if its springs cross a corner of their law. [J]
@@ -77,25 +102,36 @@ namespace {
 		return power;
 	}
 
-	timber::SpringSteps springSteps(TimberJoint& joint, const Scene& scene)
+	/// G of spring_step.hpp. end: of the spring in B, in the frame of A [m]
+	template <int n> timber::ModalVectors<n> ratesOf(const ImplicitJoint& implicit, const Vector3r& end)
 	{
+		if constexpr (n == 1) return std::sqrt(implicit.axis.response) * implicit.joint->normal;
+		else return implicit.joint->modes.rates(end);
+	}
+
+	template <int n> timber::SpringSteps<n> springSteps(const ImplicitJoint& implicit, const Scene& scene)
+	{
+		TimberJoint& joint = *implicit.joint;
 		const State &s1 = *bodyAt(scene, joint.id1)->state, &s2 = *bodyAt(scene, joint.id2)->state;
 		const Quaternionr toA = s1.ori.conjugate();
 		const vector<Vector3r> forces = joint.springForces();
-		std::unique_ptr<timber::SpringLaw> law = joint.springLaw();
-		std::vector<timber::SpringStep> steps;
+		const auto acting = [&](const Vector3r& stretch) -> Vector3r {
+			if constexpr (n == 1) return joint.normal.dot(stretch) * joint.normal;
+			else return stretch;
+		};
+		std::vector<timber::SpringStep<n>> steps;
 		for (size_t k = 0; k < joint.broken.size(); ++k) {
 			if (joint.broken[k]) continue;
 			const Vector3r end = toA * (s2.pos + s2.ori * joint.anchors2[k] - s1.pos),
-			               stretch = end - joint.anchors1[k], force = toA * forces[k];
-			timber::SpringStep step { k, stretch, stretch, Vector3r::Zero(), joint.modes.rates(end),
+			               stretch = acting(end - joint.anchors1[k]), force = toA * forces[k];
+			timber::SpringStep<n> step { k, stretch, stretch, Vector3r::Zero(), ratesOf<n>(implicit, end),
 				force };
-			if (joint.isStiff()) step.from = joint.halfStretches[k];
+			if (joint.isStiff()) step.from = acting(joint.halfStretches[k]);
 			else step.applied = force;
 			steps.push_back(std::move(step));
 		}
 		const bool enters = !joint.isStiff();
-		timber::SpringSteps result(std::move(law), std::move(steps), joint.storedEnergy, scene.dt);
+		timber::SpringSteps<n> result(joint.springLaw(), std::move(steps), joint.storedEnergy, scene.dt);
 		// The bodies' velocities are those of half a step before the placement
 		if (enters)
 			result.account = result.startEnergy() - scene.dt / 2 * stretchingPower(joint, s1, s2, forces);
@@ -103,12 +139,13 @@ namespace {
 	}
 
 	/// Stretches and forces of a stiff joint after the step, and its broken springs.
-	void storeSprings(const timber::SpringSteps& steps, const Quaternionr& ori, const ImplicitJoint& implicit,
+	template <int n>
+	void storeSprings(const timber::SpringSteps<n>& steps, const Quaternionr& ori, const ImplicitJoint& implicit,
 	        ImplicitJointResult& result)
 	{
 		TimberJoint& joint = *implicit.joint;
 		joint.stiffen();
-		for (const timber::SpringStep& s : steps.springs) {
+		for (const timber::SpringStep<n>& s : steps.springs) {
 			joint.halfStretches[s.spring] = s.stretch;
 			joint.stretches[s.spring] = ori * s.placed;
 			joint.forces[s.spring] = ori * s.force;
@@ -120,12 +157,12 @@ namespace {
 	}
 
 	/// Forces of the springs about the bodies' centres. armA, armB: from these to the joint's centre
-	timber::JointForce totalForce(const timber::ModalConstraint& c, const TimberJoint& joint)
+	template <int n> timber::JointForce totalForce(const timber::ModalConstraint<n>& c, const TimberJoint& joint)
 	{
 		timber::JointForce total;
-		for (const timber::SpringStep& s : c.springs.springs) {
-			const Vector3r force = c.axesA * s.force,
-			               end = c.axesA * (s.placed + joint.anchors1[s.spring]); // from the centre of A
+		for (const timber::SpringStep<n>& s : c.springs.springs) {
+			const Vector3r force = c.axesA * s.force, // end: from the centre of A
+			        end = n == 1 ? c.armA : Vector3r(c.axesA * (s.placed + joint.anchors1[s.spring]));
 			total.force += force;
 			total.torqueA += end.cross(force);
 			total.torqueB -= (end - c.armA + c.armB).cross(force);
@@ -137,17 +174,18 @@ namespace {
 
 	/// Energies of a stiff joint after the step. A brittle one that the step resolves, and of which no spring breaks, goes
 	/// back to JointEngine, with the energy of explicit springs; it counts what they have beyond the account.
-	void storeEnergies(const timber::ModalConstraint& c, const ImplicitJoint& implicit, timber::JointForce& total,
-	        ImplicitJointResult& result)
+	template <int n>
+	void storeEnergies(const timber::ModalConstraint<n>& c, const ImplicitJoint& implicit,
+	        timber::JointForce& total, ImplicitJointResult& result)
 	{
 		TimberJoint& joint = *implicit.joint;
 		const bool breaks = std::any_of(c.springs.springs.begin(), c.springs.springs.end(),
-		        [](const timber::SpringStep& s) { return s.breaks; });
+		        [](const timber::SpringStep<n>& s) { return s.breaks; });
 		Real& dissipated = joint.yields() ? result.yielded : breaks ? result.released : result.dashpots;
 		dissipated += c.springs.dissipated;
 		joint.storedEnergy = c.springs.account;
-		if (!breaks && !joint.yields() && !joint.modes.isStiff(c.h / timber::softPhase)) {
-			const timber::SpringSteps::Leaving left = c.springs.leave(c.h, c.after);
+		if (!breaks && !joint.yields() && c.isSoft()) {
+			const auto left = c.springs.leave(c.h, c.after);
 			dissipated += left.dissipated;
 			result.stored += total.energy = left.stored;
 			total.isKnown = true;
@@ -183,11 +221,12 @@ ImplicitJointResult findImplicitJoints(const Scene& scene, const std::vector<tim
 	};
 	for (size_t k = 0; k < engine->joints.size(); ++k) {
 		TimberJoint& joint = *engine->joints[k];
-		const bool may = (joint.isDamped() || alsoStiff) && hasModes(joint, scene, bodies);
-		const bool isStiff
-		        = may && alsoStiff && (joint.isStiff() || joint.modes.isStiff(scene.dt) || isFast(joint));
-		if (may && (isStiff || joint.isDamped()))
-			implicit.push_back({ &joint, k, isStiff, engine->lastForce(k).tangent });
+		bool isStiff = false;
+		if ((joint.isDamped() || alsoStiff) && holds(joint, scene, bodies)) {
+			ImplicitJoint one = withModes(joint, k, *engine, scene, bodies);
+			one.isStiff = isStiff = alsoStiff && (joint.isStiff() || one.isStiff || isFast(joint));
+			if (isStiff || joint.isDamped()) implicit.push_back(one);
+		}
 		if (isStiff && !joint.isStiff()) engine->handOver(k);
 		if (!isStiff && joint.isStiff()) release(joint, lost);
 	}
@@ -200,39 +239,66 @@ Real dashpotPower(const Scene& scene, const std::vector<timber::SolverBody>& bod
 	Real power = 0;
 	for (size_t k = 0; engine && k < engine->joints.size(); ++k) {
 		TimberJoint& joint = *engine->joints[k];
-		if (joint.isDamped() && hasModes(joint, scene, bodies))
-			power += timber::dashpotPower(bodies[joint.id1], bodies[joint.id2], joint.modes,
-			        axesOf(scene, joint.id1), joint.damping(engine->lastForce(k).tangent));
+		if (!joint.isDamped() || !holds(joint, scene, bodies)) continue;
+		const ImplicitJoint one = withModes(joint, k, *engine, scene, bodies);
+		const timber::SolverBody &a = bodies[joint.id1], &b = bodies[joint.id2];
+		const timber::JointDamping damping = joint.damping(one.tangent);
+		power += one.isAxial ? timber::dashpotPower(a, b, one.axis, damping)
+		                     : timber::dashpotPower(a, b, joint.modes, axesOf(scene, joint.id1), damping);
 	}
 	return power;
 }
 
-void prepareJoint(timber::ContactSolver& solver, size_t k, const ImplicitJoint& implicit, const Scene& scene)
+void addJoint(timber::ContactSolver& solver, ImplicitJoint& implicit)
 {
-	TimberJoint& joint = *implicit.joint;
-	timber::SpringSteps springs;
-	if (implicit.isStiff) springs = springSteps(joint, scene);
-	const Real tangent = implicit.isStiff && joint.isDamped() ? springs.tangent() : implicit.tangent;
-	timber::ModalConstraint& c
-	        = solver.prepareJoint(k, joint.modes, axesOf(scene, joint.id1), joint.damping(tangent));
-	if (implicit.isStiff) timber::addSprings(c, std::move(springs));
+	const Body::id_t a = implicit.joint->id1, b = implicit.joint->id2;
+	implicit.place = implicit.isAxial ? solver.addJoint<1>(a, b) : solver.addJoint<6>(a, b);
 }
 
-timber::PairForce storeJoint(const timber::ContactSolver& solver, size_t k, const Scene& scene,
-        const ImplicitJoint& implicit, ImplicitJointResult& result)
-{
-	const timber::ModalConstraint& c = solver.joint(k);
-	const timber::JointImpulse P = timber::jointImpulse(c);
-	const Vector3r force = P.linear / scene.dt, torque = P.angular / scene.dt;
-	result.dashpots += c.dissipated;
-	if (implicit.isStiff) {
-		const Quaternionr& ori = bodyAt(scene, implicit.joint->id1)->state->ori;
-		storeSprings(c.springs, ori, implicit, result);
-		timber::JointForce total = totalForce(c, *implicit.joint);
-		storeEnergies(c, implicit, total, result);
-		findEngine<JointEngine>(scene)->setForce(implicit.index, total);
+namespace {
+	/// modes: of n
+	template <int n, class Modes>
+	void prepare(
+	        timber::ContactSolver& solver, const ImplicitJoint& implicit, const Modes& modes, const Scene& scene)
+	{
+		TimberJoint& joint = *implicit.joint;
+		timber::SpringSteps<n> springs;
+		if (implicit.isStiff) springs = springSteps<n>(implicit, scene);
+		const Real tangent = implicit.isStiff && joint.isDamped() ? springs.tangent() : implicit.tangent;
+		timber::ModalConstraint<n>& c = solver.prepareJoint<n>(
+		        implicit.place, modes, axesOf(scene, joint.id1), joint.damping(tangent));
+		if (implicit.isStiff) timber::addSprings(c, std::move(springs));
 	}
-	return { force, -c.armA.cross(force) - torque, c.armB.cross(force) + torque };
+
+	template <int n>
+	timber::PairForce store(const timber::ModalConstraint<n>& c, const Scene& scene, const ImplicitJoint& implicit,
+	        ImplicitJointResult& result)
+	{
+		const timber::JointImpulse P = timber::jointImpulse(c);
+		const Vector3r force = P.linear / scene.dt, torque = P.angular / scene.dt;
+		result.dashpots += c.dissipated;
+		if (implicit.isStiff) {
+			const Quaternionr& ori = bodyAt(scene, implicit.joint->id1)->state->ori;
+			storeSprings(c.springs, ori, implicit, result);
+			timber::JointForce total = totalForce(c, *implicit.joint);
+			storeEnergies(c, implicit, total, result);
+			findEngine<JointEngine>(scene)->setForce(implicit.index, total);
+		}
+		return { force, -c.armA.cross(force) - torque, c.armB.cross(force) + torque };
+	}
+}
+
+void prepareJoint(timber::ContactSolver& solver, const ImplicitJoint& implicit, const Scene& scene)
+{
+	if (implicit.isAxial) prepare<1>(solver, implicit, implicit.axis, scene);
+	else prepare<6>(solver, implicit, implicit.joint->modes, scene);
+}
+
+timber::PairForce storeJoint(const timber::ContactSolver& solver, const Scene& scene, const ImplicitJoint& implicit,
+        ImplicitJointResult& result)
+{
+	return implicit.isAxial ? store(solver.joint<1>(implicit.place), scene, implicit, result)
+	                        : store(solver.joint<6>(implicit.place), scene, implicit, result);
 }
 
 } // namespace yade

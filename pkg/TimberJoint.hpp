@@ -96,6 +96,8 @@ public:
 	std::vector<timber::BackbonePoint> envelopePoints(Real share) const;
 	/// Backbone of a spring that yields; perJoint: with its share of the joint's strength.
 	std::vector<timber::BackbonePoint> backbone() const;
+	/// Whether a single unbroken spring acts along the normal.
+	bool isAxial() const { return ks == 0 && intact == 1; }
 	/// Of springs that yield along the normal only (ks = 0), else zero. [-]
 	Vector3r axis() const { return ks == 0 ? normal : Vector3r::Zero(); }
 	/// Forces and new histories of springs that yield.

@@ -2,24 +2,17 @@
 """Damaged house files, frames from CAD, towns, records, tables and motion options for hypothesis, and the check that
 each is used or refused in one line.
 """
-
 import argparse
 import copy
 import re
 import resource
 import signal
-import sys
 import warnings
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 import yaml
 from hypothesis import strategies as st
-
-ROOT = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(ROOT / "py"))
-
 from btlx_sample import portal
 from timber_houses.base.errors import InputError
 from timber_houses.house import build_house, load_house, load_town
@@ -84,76 +77,12 @@ snow: {depth: 0.2}
 joint_search: {gap: 0.02}
 """
 
-HOSTILE = [
-    "",
-    " ",
-    "-",
-    "0",
-    "-1",
-    "1e308",
-    "-1e-308",
-    "1e-12",
-    "1e400",
-    ".inf",
-    ".nan",
-    "nan",
-    "2,73",
-    "010",
-    "1:30",
-    "0x10",
-    "9" * 30,
-    "9" * 400,
-    "9" * 5000,
-    "1.2.3",
-    "null",
-    "true",
-    "[]",
-    "{}",
-    "[[]]",
-    "[" * 200,
-    "{a: " * 200,
-    "&a [*a, *a]",
-    "*a",
-    "!!int x",
-    "!!float x",
-    "!!bool x",
-    "!!timestamp x",
-    "!!binary x",
-    "!!set {a}",
-    "!!python/object:os.system x",
-    '"\\0"',
-    '"\\e[31m"',
-    '"\\ud800"',
-    '"\\UFFFFFFFF"',
-    "\0",
-    "\x1b",
-    "\u2028",
-    "\ufeff",
-    "<<: {a: b}",
-    "%YAML 9.9",
-    "---",
-    "...",
-    "? a",
-    "2020-13-45",
-    "x" * 2000,
-    "a/" * 3000,
-    "../" * 50,
-    "A $\\frac{$ B",
-    "\t",
-    "|",
-    ">",
-    "'",
-    '"',
-    "#",
-    ": ",
-    "- ",
-    "1_000",
-    "=",
-    "<",
-    "@",
-    "`",
-    "%",
-]
+HOSTILE = ["", " ", "-", "0", "-1", "1e308", "-1e-308", "1e-12", "1e400", ".inf", ".nan", "nan", "2,73", "010", "1:30",
+           "0x10", "9" * 30, "9" * 400, "9" * 5000, "1.2.3", "null", "true", "[]", "{}", "[[]]", "[" * 200,
+           "{a: " * 200, "&a [*a, *a]", "*a", "!!int x", "!!float x", "!!bool x", "!!timestamp x", "!!binary x",
+           "!!set {a}", "!!python/object:os.system x", '"\\0"', '"\\e[31m"', '"\\ud800"', '"\\UFFFFFFFF"', "\0", "\x1b",
+           "\u2028", "\ufeff", "<<: {a: b}", "%YAML 9.9", "---", "...", "? a", "2020-13-45", "x" * 2000, "a/" * 3000,
+           "../" * 50, "A $\\frac{$ B", "\t", "|", ">", "'", '"', "#", ": ", "- ", "1_000", "=", "<", "@", "`", "%"]
 hostile = st.sampled_from(HOSTILE) | st.floats().map(repr) | st.integers().map(str) | st.text(max_size=20)
 
 
@@ -161,31 +90,23 @@ def record_texts():
     """One small record of each format."""
     rows = [f"{100 * np.sin(0.3 * i):.3f}" for i in range(40)]
     counts = "\n".join(" ".join(str(int(1000 * float(v)) + 13000) for v in rows[i : i + 8]) for i in range(0, 40, 8))
-    knet = [
-        "Origin Time       2004/10/23 17:56:00", "Lat.              37.3", "Long.             138.9",
-        "Depth. (km)       13", "Mag.              6.8", "Station Code      TST001", "Station Lat.      37.3",
-        "Station Long.     138.8", "Station Height(m) 56", "Record Time       2004/10/23 17:56:20",
-        "Sampling Freq(Hz) 100Hz", "Duration Time(s)  0.4", "Dir.              N-S",
-        "Scale Factor      2000(gal)/2000000", "Max. Acc. (gal)   100", "Last Correction   2004/10/23 17:56:00",
-        "Memo.             "
-    ]
+    knet = ["Origin Time       2004/10/23 17:56:00", "Lat.              37.3", "Long.             138.9",
+            "Depth. (km)       13", "Mag.              6.8", "Station Code      TST001", "Station Lat.      37.3",
+            "Station Long.     138.8", "Station Height(m) 56", "Record Time       2004/10/23 17:56:20",
+            "Sampling Freq(Hz) 100Hz", "Duration Time(s)  0.4", "Dir.              N-S",
+            "Scale Factor      2000(gal)/2000000", "Max. Acc. (gal)   100", "Last Correction   2004/10/23 17:56:00",
+            "Memo.             "]
     at2 = [
         "PEER NGA STRONG MOTION DATABASE RECORD", "Somewhere, 1/1/2000, TST, 090",
         "ACCELERATION TIME SERIES IN UNITS OF G", "NPTS=   40, DT=   .0200 SEC,", " ".join(
             f"{float(v) / 981:.5E}" for v in rows)
     ]
-    peknold = [
-        "Data for El Centro 1940 North South Component (Peknold Version)", "40 points at equal spacing of 0.02 sec",
-        "The units are (g)", "", *at2[4:]
-    ]
-    jma = [
-        "SITE CODE= 1", "LAT.= 35", "LON.= 135", "SAMPLING RATE= 100Hz", "UNIT= gal(cm/s/s)",
-        "INITIAL TIME= 2004 10 23 17 56 00", "NS,EW,UD", *[f"{v},{v},{v}" for v in rows]
-    ]
-    csv = [
-        "# units: gal", "# dt: 0.01", "# samples: 40", "time [s],ns [gal],ew_gal,ud(gal)",
-        *[f"{0.01 * i:.2f},{v},{v},{v}" for i, v in enumerate(rows)]
-    ]
+    peknold = ["Data for El Centro 1940 North South Component (Peknold Version)",
+               "40 points at equal spacing of 0.02 sec", "The units are (g)", "", *at2[4:]]
+    jma = ["SITE CODE= 1", "LAT.= 35", "LON.= 135", "SAMPLING RATE= 100Hz", "UNIT= gal(cm/s/s)",
+           "INITIAL TIME= 2004 10 23 17 56 00", "NS,EW,UD", *[f"{v},{v},{v}" for v in rows]]
+    csv = ["# units: gal", "# dt: 0.01", "# samples: 40", "time [s],ns [gal],ew_gal,ud(gal)",
+           *[f"{0.01 * i:.2f},{v},{v},{v}" for i, v in enumerate(rows)]]
     return ["\n".join([*knet, counts]), *("\n".join(lines) + "\n" for lines in (at2, peknold, jma, csv))]
 
 
@@ -247,13 +168,10 @@ def damaged_trees(draw):
     return yaml.safe_dump(tree, allow_unicode=True, sort_keys=False).encode("utf-8", "surrogatepass")
 
 
-SIZES = st.sampled_from([
-    0, 1e-12, 1e-9, 1e-7, 1e-6, 1e-4, 1e-3, 0.0101, 0.02, 0.05, 0.1, 0.3, 0.49, 0.5, 1, 1.99, 2, 3, 20, 99
-]) | st.floats(0, 3)
-ROOFS = st.sampled_from([
-    "type: gable, pitch", "type: gable, ridge: x, pitch", "type: hip, pitch", "type: hip, corner_cut: 0.1, pitch",
-    "type: gable, ridge_height", "type: hip, ridge_height"
-])
+SIZES = st.sampled_from([0, 1e-12, 1e-9, 1e-7, 1e-6, 1e-4, 1e-3, 0.0101, 0.02, 0.05, 0.1, 0.3, 0.49, 0.5, 1, 1.99, 2, 3,
+                         20, 99]) | st.floats(0, 3)
+ROOFS = st.sampled_from(["type: gable, pitch", "type: gable, ridge: x, pitch", "type: hip, pitch",
+                         "type: hip, corner_cut: 0.1, pitch", "type: gable, ridge_height", "type: hip, ridge_height"])
 
 
 @st.composite
@@ -341,11 +259,10 @@ town_files, table_files = damaged_files(TOWNS), damaged_files(TABLES)
 
 _OPTIONS = ("record", "seed", "component", "units", "azimuth", "start", "end", "detrend", "highpass", "pga",
             "intensity", "scale")
-_option_values = st.sampled_from([
-    "0", "1", "-1", "0.1", "2", "30", "1e-3", "100", "300", "1e5", "1e6", "nan", "inf", "-inf", "1e308", "9" * 30,
-    "9" * 400, "9" * 5000, "", " ", "nonsense", "x" * 5000, "a,b", "," * 500, "ns,ew,ud", "gal", "g", "/", "/dev/zero",
-    "/dev/null", "/proc/kmsg", "~nobody-of-that-name/x", "\ud800", "\x1b[31m"
-])
+_option_values = st.sampled_from(["0", "1", "-1", "0.1", "2", "30", "1e-3", "100", "300", "1e5", "1e6", "nan", "inf",
+                                  "-inf", "1e308", "9" * 30, "9" * 400, "9" * 5000, "", " ", "nonsense", "x" * 5000,
+                                  "a,b", "," * 500, "ns,ew,ud", "gal", "g", "/", "/dev/zero", "/dev/null", "/proc/kmsg",
+                                  "~nobody-of-that-name/x", "\ud800", "\x1b[31m"])
 
 
 def _command_line(pairs):

@@ -11,10 +11,9 @@ import sys
 import pytest
 
 sys.stdout.flush()
-code = int(
-    pytest.main([
-        sys.argv[-1], "-q", "-ra", "-p", "no:cacheprovider", f"--rootdir={os.path.dirname(os.path.abspath(__file__))}",
-        "-o", "markers=rare: on request, label stress", "-m", "rare" if "--rare" in sys.argv else "not rare"
-    ]))
+code = int(pytest.main([sys.argv[-1], "-q", "-ra", "-p", "no:cacheprovider",
+                        f"--rootdir={os.path.dirname(os.path.abspath(__file__))}", "-o",
+                        "markers=rare: on request, label stress", "-m", "rare" if "--rare" in sys.argv
+                        else "not rare"]))
 sys.stdout.flush()
 sys.exit(code)

@@ -57,10 +57,8 @@ def frames(ended=True, shaken=True):
         made.motion = Motion(0.01, 0.0, acceleration, np.zeros((300, 3)))
     if ended:
         made.summary, made.history = SUMMARY, history(time, slide)
-        made.breaks = {
-            "time": [1.2, 1.2, 1.6, 1.6, 1.6], "joint": [1, 1, 1, 1, 2], "spring": [0, 1, 2, 3, 0],
-            "cause": ["tension"] * 5, "force": [5881.0] * 5
-        }
+        made.breaks = {"time": [1.2, 1.2, 1.6, 1.6, 1.6], "joint": [1, 1, 1, 1, 2], "spring": [0, 1, 2, 3, 0],
+                       "cause": ["tension"] * 5, "force": [5881.0] * 5}
     return made
 
 
@@ -68,10 +66,8 @@ def history(time, slide):
     """History with every column of the page of curves."""
     energies = ("kinetic", "gravity", "elastic_contacts", "elastic_joints", "ground_motion", "dashpot_normal",
                 "dashpot_shear", "friction", "broken_springs", "lost_contacts", "joint_yield")
-    columns = [
-        "time [s]", "drift_ns1 [-]", "drift_ew1 [-]", "drop1 [m]", "broken_joints [-]", "broken_springs [-]",
-        *(f"{name} [J]" for name in energies)
-    ]
+    columns = ["time [s]", "drift_ns1 [-]", "drift_ew1 [-]", "drop1 [m]", "broken_joints [-]", "broken_springs [-]",
+               *(f"{name} [J]" for name in energies)]
     rows = np.zeros((len(time), len(columns)))
     rows[:, 0], rows[:, 2] = time, slide / 2
     rows[:, columns.index("ground_motion [J]")] = rows[:, columns.index("friction [J]")] = 100 * slide

@@ -40,10 +40,8 @@ def rows_of(function):
     try:
         rows = function()
     except Exception as error:  # shown in the table; the other cases run
-        rows = [
-            Row("?", function.__name__, math.nan, math.nan,
-                note=f"did not run: {type(error).__name__}: {error}".splitlines()[0])
-        ]
+        rows = [Row("?", function.__name__, math.nan, math.nan,
+                    note=f"did not run: {type(error).__name__}: {error}".splitlines()[0])]
     passed = sum(row.passes for row in rows)
     print(f"{function.__name__:45} {passed:3} of {len(rows):3} within bounds {time.monotonic() - start:7.1f} s",
           flush=True)

@@ -9,17 +9,7 @@ import time
 from pathlib import Path
 
 import yade.wrapper as yw
-
-
-def resident_memory():
-    """Resident memory of this process [MB]."""
-    pages = int(Path("/proc/self/statm").read_text().split()[1])
-    return pages * os.sysconf("SC_PAGE_SIZE") / 1e6
-
-
-BARE_MEMORY = resident_memory()
-"""Resident memory before the package is imported, if this module imports it first: YADE alone [MB]."""
-
+from tables import markdown_table
 from timber_houses.base.atomic_write import written_whole
 from timber_houses.study.options import Parser, count, house, results_folder
 
@@ -33,14 +23,10 @@ STATES = {"at rest": 0.0, "strong shaking": 18.5}
 """{state: start of the run in the time of the ground motion [s]}."""
 
 
-def parser(about, steps, blocks=None, house_name=None):
-    """ArgumentParser of a benchmark; blocks, steps, house_name: defaults of --blocks, --steps, --house (None: no such
-    option).
-    """
+def parser(about, steps, blocks=None):
+    """ArgumentParser of a benchmark of a house; blocks, steps: defaults of --blocks (None: no such option), --steps."""
     made = Parser(about)
-    if house_name:
-        made.add_argument("--house", type=house, default=house_name,
-                          help="shipped house or YAML file (default %(default)s)")
+    made.add_argument("--house", type=house, default="C2", help="shipped house or YAML file (default %(default)s)")
     if blocks:
         made.add_argument("--blocks", type=count, default=blocks,
                           help="number of repeated measurements; their median counts (default %(default)s)")
@@ -103,28 +89,9 @@ def write_table(folder, name, heads, rows):
     write_csv(path, ("table", "machine"), sorted({**machines, name: machine()}.items()))
 
 
-def publish(folder, name, text, heads, rows):
-    """Print a measurement; with a folder, write its rows to NAME.csv there."""
-    print(text)
+def publish(folder, name, title, heads, rows):
+    """Print a measurement as a table; with a folder, write its rows to NAME.csv there."""
+    shown = [[f"{cell:.4g}" if isinstance(cell, float) else cell for cell in row] for row in rows]
+    print(f"## {title}. {machine()}\n\n{markdown_table(heads, shown)}")
     if folder:
         write_table(folder, name, heads, rows)
-
-
-SCALING = (
-    "houses", "threads", "elements", "wall time per step [us]", "CPU time per element and step [us]",
-    "relative to one house", "speed-up", "memory per element [kB]", "above bare YADE [MB]",
-)
-
-
-def scaling(measured):
-    """Rows of a table with the heads SCALING. measured: dictionaries with houses, threads, elements, wall and cpu [s],
-    memory [MB].
-    """
-    alone = {m["houses"]: m for m in measured if m["threads"] == 1}
-    base = alone.get(min(alone, default=None))
-    for m in measured:
-        share = m["cpu"] / m["elements"] / (base["cpu"] / base["elements"]) if m["threads"] == 1 else None
-        speed_up = alone[m["houses"]]["wall"] / m["wall"] if m["threads"] > 1 and m["houses"] in alone else None
-        yield (m["houses"], m["threads"], m["elements"], f"{m['wall'] * 1e6:.0f}",
-               f"{m['cpu'] * 1e6 / m['elements']:.2f}", *(f"{x:.2f}" if x else "" for x in (share, speed_up)),
-               f"{m['memory'] * 1e3 / m['elements']:.0f}", f"{m['memory']:.0f}")

@@ -1,16 +1,19 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Time per contact pair and step, contact points and their errors: this package, YADE's Polyhedra, Bullet and ODE.
+"""Time per contact pair and step: this package, YADE's Polyhedra, LAMMPS, Bullet and ODE.
 
     scripts/setup --with-bench && yade -j1 -n -x scripts/bench/benchmark_peers.py [--pairs 100] [--out FOLDER]
 
-build/bench/benchmarks/benchmark_peers (Google Benchmark) measures Bullet, ODE (contact points alone) and the kernel of
-this package (contact points, contact law, solver). YADE's Polyhedra and this package in YADE are measured here: a step
-with many separate pairs, minus the same step without functors, divided by the number of pairs. CPU time throughout.
+Cubes on plates, face on face: in YADE and in LAMMPS a step with many pairs in contact, minus the same step with the
+cubes lifted, divided by the number of pairs. Steps are too short for motion. build/bench/benchmarks/benchmark_peers
+(Google Benchmark) measures Bullet and ODE (contact points alone) and the kernel of this package, for several pairs.
+CPU time throughout. LAMMPS: Debian's package.
 """
 import json
-import math
+import re
+import shutil
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 import yade.wrapper as yw
@@ -20,8 +23,9 @@ ROOT = Path(sys.argv[0]).resolve().parents[2]  # YADE runs a script without sett
 sys.path.insert(0, str(ROOT / "scripts/bench"))
 
 import yade_timber as yt
-from bench_tools import cpu_per_step, interleaved, machine, parser, publish
-from tables import markdown_table
+from bench_tools import cpu_per_step, interleaved, parser, publish
+from mechanics.programs import lammps
+from mechanics.scene import Body
 from yade.minieigenHP import Vector3
 from timber_houses.base.errors import RunError
 from timber_houses.study.options import count, run_script
@@ -29,60 +33,28 @@ from timber_houses.study.options import count, run_script
 O = yw.Omega()
 
 PROGRAM = ROOT / "build" / "bench" / "benchmarks" / "benchmark_peers"
-FACE = "face on face"
-DEPTH = 1e-4
-"""Overlap of the touching faces [m]; that of benchmarks/configurations.hpp."""
+DEPTH, LIFTED = 1e-4, -5.0
+"""Overlap of the faces in contact, as in benchmarks/configurations.hpp, and of lifted cubes. [m]"""
 PLATE, CUBE, ASIDE = (1.0, 1.0, 0.2), (0.3, 0.3, 0.3), (0.01, 0.02)
-"""Extents of the face configuration, and horizontal position of the cube [m]."""
-SPACING = 3.0
-"""Between pairs [m]."""
-WHOLE, POLYHEDRA, KERNEL = "this package in YADE", "YADE Polyhedra", "timber"
-HEADS = ("program", "pair", "time per pair and step [us]", "contact points", "expected", "error of normal [rad]",
-         "error of depth [m]")
-PAGE_HEADS = ("pair", "program", "time [us]", "contact points", "error of normal [rad]", "error of depth [m]")
-NAMES = {"timber": "this package: points, law, solver", "timber points": "this package: points alone",
-         "timber cold": "this package: points, nothing cached", "Bullet": "Bullet: points",
-         "Bullet hulls": "Bullet: points, boxes as hulls", "Bullet cold": "Bullet: points, nothing cached",
-         "ODE": "ODE: points (never cached)"}
+"""Extents, and horizontal position of the cube. [m]"""
+SPACING, ROW = 3.0, 50
+"""Between pairs [m]; pairs in a row."""
+STEP = 1e-9
+"""[s]"""
+HEADS = ("program", "pair", "time per pair and step [us]", "contact points")
 
 
-def arguments():
-    made = parser(__doc__, blocks=7, steps=50)
-    made.add_argument("--pairs", type=count, default=100, help="pairs in the scenes of YADE (default %(default)s)")
-    made.add_argument("--repetitions", type=count, default=5,
-                      help="repetitions of Google Benchmark; their median counts (default %(default)s)")
-    return made.parse_args()
+def places(pairs, depth):
+    """[(plate's centre, cube's centre)] [m]"""
+    grid = [(SPACING * (k % ROW), SPACING * (k // ROW)) for k in range(pairs)]
+    return [((x, y, -PLATE[2] / 2), (x + ASIDE[0], y + ASIDE[1], CUBE[2] / 2 - depth)) for x, y in grid]
 
 
-# --- Google Benchmark -------------------------------------------------------------------------------------------------
-def kernel_rows(repetitions):
-    """Rows of the C++ program."""
-    if not PROGRAM.exists():
-        raise RunError(f"{PROGRAM} is missing: scripts/setup --with-bench builds it")
-    interleaving = "--benchmark_enable_random_interleaving=true"  # other load affects all alike
-    options = ["--benchmark_format=json", f"--benchmark_repetitions={repetitions}", "--benchmark_min_time=0.1",
-               interleaving]
-    found = json.loads(subprocess.run([PROGRAM, *options], check=True, capture_output=True, text=True).stdout)
-    median = [b for b in found["benchmarks"] if b.get("aggregate_name") == "median"]
-    rows = []
-    for b in sorted(median, key=lambda b: b["family_index"]):
-        program, pair = b["run_name"].split("/", 1)
-        rows.append(
-            (program, pair, b["cpu_time"] * 1e-3, round(b["points"]), round(b["expected"]), b["normal_error"],
-             b["depth_error"])
-        )
-    return rows
-
-
-# --- scenes in YADE ---------------------------------------------------------------------------------------------------
-def corners(extents):
-    return [Vector3(*(s * e / 2 for s, e in zip(sign, extents)))
-            for sign in ((x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1))]
-
-
+# --- YADE -------------------------------------------------------------------------------------------------------------
 def polyhedra_body(extents, centre, fixed):
-    body = polyhedra_utils.polyhedra(yw.PolyhedraMat(young=8.8e9, poisson=0.4, density=340), v=corners(extents),
-                                     fixed=fixed)
+    corners = [Vector3(*(s * e / 2 for s, e in zip(sign, extents))) for sign in lammps.SIGNS.tolist()]
+    material = yw.PolyhedraMat(young=8.8e9, poisson=0.4, density=340)
+    body = polyhedra_utils.polyhedra(material, v=corners, fixed=fixed)
     body.state.pos = Vector3(*centre)
     return body
 
@@ -92,35 +64,26 @@ def timber_body(extents, centre, fixed):
 
 
 def polyhedra_engines():
-    return [
-        yw.ForceResetter(),
-        yw.InsertionSortCollider([yw.Bo1_Polyhedra_Aabb()], verletDist=0),
-        yw.InteractionLoop([yw.Ig2_Polyhedra_Polyhedra_PolyhedraGeom()],
-                           [yw.Ip2_PolyhedraMat_PolyhedraMat_PolyhedraPhys()],
-                           [yw.Law2_PolyhedraGeom_PolyhedraPhys_Volumetric()]),
-    ]
+    loop = yw.InteractionLoop([yw.Ig2_Polyhedra_Polyhedra_PolyhedraGeom()],
+                              [yw.Ip2_PolyhedraMat_PolyhedraMat_PolyhedraPhys()],
+                              [yw.Law2_PolyhedraGeom_PolyhedraPhys_Volumetric()])
+    collider = yw.InsertionSortCollider([yw.Bo1_Polyhedra_Aabb()], verletDist=0.01)
+    return [yw.ForceResetter(), collider, loop, yw.NewtonIntegrator()]
 
 
 def timber_engines():
-    """The engines of `yt.engines` without the integrator."""
-    return [e for e in yt.engines(gravity=(0, 0, 0)) if not isinstance(e, yw.SymplecticIntegrator)]
+    return yt.engines(gravity=(0, 0, 0))
 
 
-def without_functors(engines):
-    """The same engines up to the interaction loop, which is empty."""
-    index = next(k for k, e in enumerate(engines) if isinstance(e, (yw.ContactLoop, yw.InteractionLoop)))
-    return engines[:index] + [yw.InteractionLoop([], [], [])]
-
-
-def load(body, engines, pairs, functors=True):
-    """Pairs in the face configuration, at rest, in a new scene; returns its number."""
+def load(body, engines, pairs, depth):
+    """Pairs in a new scene; returns its number."""
     number = O.addScene()
     O.switchToScene(number)
-    for k in range(pairs):
-        O.bodies.append(body(PLATE, (SPACING * k, 0, -PLATE[2] / 2), True))
-        O.bodies.append(body(CUBE, (SPACING * k + ASIDE[0], ASIDE[1], CUBE[2] / 2 - DEPTH), False))
-    O.engines = engines() if functors else without_functors(engines())
-    O.dt = 1e-6
+    for plate, cube in places(pairs, depth):
+        O.bodies.append(body(PLATE, plate, True))
+        O.bodies.append(body(CUBE, cube, False))
+    O.engines = engines()
+    O.dt = STEP
     O.step()
     return number
 
@@ -134,54 +97,83 @@ def timed(number, steps):
 
 
 def yade_rows(options):
-    """Rows of the face configuration: YADE's Polyhedra and this package in YADE."""
     O.reset()
-    kinds = {WHOLE: (timber_body, timber_engines), POLYHEDRA: (polyhedra_body, polyhedra_engines)}
-    scenes = {(program, full): load(*kind, options.pairs, full) for program, kind in kinds.items()
-              for full in (True, False)}
+    kinds = {"this package in YADE": (timber_body, timber_engines),
+             "YADE Polyhedra": (polyhedra_body, polyhedra_engines)}
+    scenes = {(name, depth): load(*kind, options.pairs, depth) for name, kind in kinds.items()
+              for depth in (DEPTH, LIFTED)}
     times = interleaved([(key, timed(number, options.steps)) for key, number in scenes.items()], options.blocks)
-    return [row_of(program, scenes[program, True], (times[program, True] - times[program, False]) / options.pairs)
-            for program in kinds]
+    for name in kinds:
+        O.switchToScene(scenes[name, DEPTH])
+        points = getattr(O.interactions[0, 1].geom, "points", [None])  # Polyhedra: one force
+        yield name, 1e6 * (times[name, DEPTH] - times[name, LIFTED]) / options.pairs, len(points)
 
 
-def row_of(program, number, seconds):
-    """Row with the contact points of the first pair of a scene."""
-    O.switchToScene(number)
-    geometry = O.interactions[0, 1].geom
-    if program == POLYHEDRA:
-        found = [(geometry.normal, geometry.equivalentPenetrationDepth)]
-    else:
-        found = [(normal, overlap) for _, normal, overlap, _ in geometry.points]
-    tilt = max(math.atan2(n.cross(Vector3(0, 0, 1)).norm(), n[2]) for n, _ in found)
-    return program, FACE, seconds * 1e6, len(found), 4, tilt, max(abs(d - DEPTH) for _, d in found)
-
-
-# --- page -------------------------------------------------------------------------------------------------------------
-def section(rows):
-    """Section of the results page."""
-    time = {(r[0], r[1]): r[2] for r in rows}
-    whole, own = time[WHOLE, FACE], time[KERNEL, FACE]
-    shown = [
-        (r[1], NAMES.get(r[0], r[0]), f"{r[2]:.3f}", f"{r[3]} of {r[4]}" if r[4] else "-", f"{r[5]:.1g}", f"{r[6]:.1g}")
-        for r in sorted(rows, key=lambda r: r[1])
-    ]
-    return f"""## Contact pairs against peers
-
-CPU time per pair and step. Touching pairs overlap by 0.1 mm, near ones are 2 mm apart; normal and depth of all of them
-are known in closed form. Contact law and solver are included only where stated.
-For the face contact YADE's Polyhedra takes {time[POLYHEDRA, FACE] / whole:.0f} times as long as this package in YADE,
-and {time[POLYHEDRA, FACE] / own:.0f} times as long as its kernel. {machine()}.
-
-{markdown_table(PAGE_HEADS, shown)}
-The depth of Polyhedra is its equivalent depth, the cube root of the overlap volume. Bullet and ODE find one or two of
-the four points of a prism that stands on its cut end.
+# --- LAMMPS -----------------------------------------------------------------------------------------------------------
+def lammps_time(pairs, depth, steps):
+    """CPU time of a step [s]."""
+    bodies = []
+    for k, (plate, cube) in enumerate(places(pairs, depth)):
+        bodies += [Body(f"plate{k}", plate, PLATE), Body(f"cube{k}", cube, CUBE, mass=9.18)]
+    held = " ".join(str(2 * k + 1) for k in range(pairs))
+    text = f"""units si
+boundary f f f
+atom_style body rounded/polyhedron 8 8
+atom_modify map array sort 0 0
+comm_modify vel yes
+read_data bodies.data
+pair_style body/rounded/polyhedron 0 0 0.5 1 {lammps.RADIUS}
+pair_coeff * * {lammps.STIFFNESS} 0
+neighbor 0.05 nsq
+group held id {held}
+group free subtract all held
+neigh_modify exclude group held held
+fix motion free nve/body
+timestep {STEP}
+thermo_modify lost ignore
+run {steps}
 """
+    with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "bodies.data").write_text(lammps.data_file(bodies), encoding="ascii")
+        (Path(folder) / "in.lmp").write_text(text, encoding="ascii")
+        done = subprocess.run(["lmp", "-in", "in.lmp"], cwd=folder, capture_output=True, text=True, check=True,
+                              env={"OMP_NUM_THREADS": "1", "PATH": "/usr/bin:/bin"})
+    share, seconds = (float(re.search(pattern, done.stdout)[1])
+                      for pattern in (r"([\d.]+)% CPU use", r"Loop time of (\S+)"))
+    return share / 100 * seconds / steps
+
+
+def lammps_row(options):
+    if not shutil.which("lmp"):
+        raise RunError("LAMMPS is missing: apt-get install lammps")
+    times = interleaved([(depth, lambda depth=depth: lammps_time(options.pairs, depth, options.steps))
+                         for depth in (DEPTH, LIFTED)], options.blocks)
+    return "LAMMPS body/rounded/polyhedron", 1e6 * (times[DEPTH] - times[LIFTED]) / options.pairs, ""
+
+
+# --- Google Benchmark -------------------------------------------------------------------------------------------------
+def program_rows(repetitions):
+    """Rows of the C++ program."""
+    if not PROGRAM.exists():
+        raise RunError(f"{PROGRAM} is missing: scripts/setup --with-bench builds it")
+    options = ["--benchmark_format=json", f"--benchmark_repetitions={repetitions}", "--benchmark_min_time=0.1",
+               "--benchmark_enable_random_interleaving=true"]  # other load affects all alike
+    found = json.loads(subprocess.run([PROGRAM, *options], check=True, capture_output=True, text=True).stdout)
+    median = [b for b in found["benchmarks"] if b.get("aggregate_name") == "median"]
+    for b in sorted(median, key=lambda b: b["family_index"]):
+        yield *b["run_name"].split("/", 1), b["cpu_time"] * 1e-3, round(b["points"])
 
 
 def main():
-    options = arguments()
-    rows = yade_rows(options) + kernel_rows(options.repetitions)
-    publish(options.out, "peers", section(rows), HEADS, rows)
+    made = parser(__doc__, blocks=7, steps=50)
+    made.add_argument("--pairs", type=count, default=100, help="of YADE and LAMMPS (default %(default)s)")
+    made.add_argument("--repetitions", type=count, default=5,
+                      help="of Google Benchmark; their median counts (default %(default)s)")
+    options = made.parse_args()
+    scenes = [(name, "face on face", *values) for name, *values in (*yade_rows(options), lammps_row(options))]
+    rows = scenes + list(program_rows(options.repetitions))
+    publish(options.out, "peers", "Time per contact pair and step", HEADS, rows)
 
 
-run_script(main)
+if __name__ == "__main__":
+    run_script(main)

@@ -19,7 +19,6 @@ import yade.wrapper as yw
 sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a script without setting __file__
 
 from bench_tools import SETTLING, STATES, parser, publish
-from tables import markdown_table
 from timber_houses.base.errors import RunError
 from timber_houses.motion import default_motion
 from timber_houses.scene import scenario
@@ -47,7 +46,7 @@ HEADS = ("part", *(f"{state} [1000 instructions a step]" for state in STATES), *
 
 
 def arguments():
-    made = parser(__doc__, steps=200, house_name="C2")
+    made = parser(__doc__, steps=200)
     made.add_argument("--state", choices=STATES, help=argparse.SUPPRESS)  # of the process that callgrind observes
     return made.parse_args()
 
@@ -110,25 +109,14 @@ def profile(options):
             for k, name in enumerate(names)]
 
 
-def shown(rows):
-    half = len(STATES) + 1
-    return markdown_table(
-        HEADS, [(row[0], *(f"{n:.0f}" for n in row[1:half]), *(f"{100 * n:.0f} %" for n in row[half:])) for row in rows]
-    )
-
-
 def main():
     options = arguments()
     if options.state:
         return run_state(options)
     if not shutil.which("valgrind"):
         raise RunError("no valgrind on the PATH: install it (scripts/setup --with-bench)")
-    rows = profile(options)
-    text = (
-        f"## Profile of a step\n\nHouse {options.house}, 1 m of snow: instructions of {options.steps} steps, counted by"
-        f" callgrind; one thread.\n\n{shown(rows)}"
-    )
-    publish(options.out, "profile", text, HEADS, rows)
+    title = f"Instructions of a step, house {options.house}, 1 m of snow, {options.steps} steps"
+    publish(options.out, "profile", title, HEADS, profile(options))
 
 
 run_script(main)

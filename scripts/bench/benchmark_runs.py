@@ -15,7 +15,6 @@ SCRIPTS = Path(sys.argv[0]).resolve().parents[1]  # YADE runs a script without s
 sys.path.insert(0, str(SCRIPTS / "bench"))
 
 from bench_tools import publish
-from tables import markdown_table
 from timber_houses.base.errors import RunError
 from timber_houses.recording.summary import Summary
 from timber_houses.study.options import Parser, positive, results_folder, run_script
@@ -56,10 +55,8 @@ def measure(name, command, duration):
     """Row of one run."""
     with tempfile.TemporaryDirectory() as folder:
         limit = ("--duration", f"{duration:g}") if duration else ()
-        steps, memory = spent(
-            ["yade", "-n", "-x", "-j1", SCRIPTS / command[0], *command[1:], *limit, "--out", folder, "--quiet",
-             "--no-views"]
-        )
+        steps, memory = spent(["yade", "-n", "-x", "-j1", SCRIPTS / command[0], *command[1:], *limit, "--out", folder,
+                               "--quiet", "--no-views"])
         pictures, _ = spent([SCRIPTS / "show" / "show_run.py", folder])
         summary = Summary.read(folder)
         return name, summary.elements, summary.duration_s, steps, pictures, memory, *sizes(Path(folder))
@@ -68,8 +65,7 @@ def measure(name, command, duration):
 def main():
     options = arguments()
     rows = [measure(name, command, options.duration) for name, command in RUNS.items()]
-    shown = [(*row[:3], *(f"{value:.1f}" for value in row[3:])) for row in rows]
-    publish(options.out, "runs", f"## Whole runs\n\n{markdown_table(HEADS, shown)}", HEADS, rows)
+    publish(options.out, "runs", "Whole runs", HEADS, rows)
 
 
 run_script(main)

@@ -4,8 +4,7 @@
     yade -j1 -n -x scripts/bench/benchmark_skips.py [--house C2] [--steps 2000] [--blocks 9] [--out FOLDER]
 
 CPU time, measured alternately with and without, each time in a new scene. Difference of the results: largest distance
-between the final positions of an element. The cache of contact features is measured by benchmark_peers.py ('nothing
-cached').
+between the final positions of an element.
 """
 import statistics
 import sys
@@ -18,8 +17,7 @@ import yade.wrapper as yw
 sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))  # YADE runs a script without setting __file__
 
 import yade_timber as yt
-from bench_tools import machine, parser, publish
-from tables import markdown_table
+from bench_tools import parser, publish
 from timber_houses.base.time_step import DEFAULT_DT
 from timber_houses.motion import default_motion
 from timber_houses.scene import scenario
@@ -36,7 +34,7 @@ HEADS = ("skipped work", "scene", "with the skip", "without", "speed-up", "large
 
 
 def arguments():
-    return parser(__doc__, blocks=9, steps=2000, house_name="C2").parse_args()
+    return parser(__doc__, blocks=9, steps=2000).parse_args()
 
 
 # --- scenes: each returns the function that is measured, with or without the skip -------------------------------------
@@ -122,19 +120,11 @@ def measure(case, build, options):
     return (*case, cpu[True], cpu[False], cpu[False] / cpu[True], distance)
 
 
-def section(options, rows):
-    shown = [(*row[:2], f"{row[2]:.2f} s", f"{row[3]:.2f} s", f"{row[4]:.2f}", f"{row[5]:.1g}") for row in rows]
-    return (
-        f"## Skipped work\n\nHouse {options.house}, CPU time of {options.steps} steps or of the stated time, medians of"
-        f" {options.blocks} runs measured alternately. {machine()}. The effect of the cache of contact features is in"
-        f" the next table: 'nothing cached'.\n\n{markdown_table(HEADS, shown)}"
-    )
-
-
 def main():
     options = arguments()
     rows = [measure(case, build, options) for case, build in CASES.items()]
-    publish(options.out, "skips", section(options, rows), HEADS, rows)
+    title = f"Skipped work, house {options.house}, {options.steps} steps, CPU time [s]"
+    publish(options.out, "skips", title, HEADS, rows)
 
 
 run_script(main)

@@ -58,11 +58,8 @@ def plot(house, runs, path):
 def main():
     options = arguments()
     house, seeds = th.house(options.house), range(1, options.motions + 1)
-    runs = [
-        th.run(house, seed=seed, start=START, duration=options.duration, out=options.out / f"seed_{seed}",
-               no_frames=True)
-        for seed in seeds
-    ]
+    runs = [th.run(house, seed=seed, start=START, duration=options.duration, out=options.out / f"seed_{seed}",
+                   no_frames=True) for seed in seeds]
     plot(house, runs, options.out / "bands.png")
     rows = [(seed, run.drift, run.broken, run.collapsed) for seed, run in zip(seeds, runs)]
     (options.out / "peaks.csv").write_text(csv_text(("seed", "peak drift [-]", "broken joints [-]", "collapsed"), rows))

@@ -55,7 +55,7 @@ def telling_view(run):
 
 def write(path, figure):
     """Write a figure as PNG with its own resolution; returns the path."""
-    return save(path, figures.image_of(figure))
+    return save(path, Image.fromarray(figures.image_of(figure)))
 
 
 def save(path, picture):
@@ -84,10 +84,9 @@ def compared(runs, time):
     with tempfile.TemporaryDirectory() as folder:
         page, picture = Path(folder) / "page.html", Path(folder) / "page.png"
         player.make([(name, runs[name]) for name in COMPARED], page)
-        subprocess.run(
-            [*CHROMIUM, f"--user-data-dir={folder}/profile", f"--screenshot={picture}", f"{page.as_uri()}#t={time}"],
-            env={**os.environ, "TMPDIR": folder}, check=True, capture_output=True
-        )
+        subprocess.run([*CHROMIUM, f"--user-data-dir={folder}/profile", f"--screenshot={picture}",
+                        f"{page.as_uri()}#t={time}"], env={**os.environ, "TMPDIR": folder}, check=True,
+                       capture_output=True)
         return Image.open(picture).convert("RGB")
 
 
@@ -117,7 +116,7 @@ def make(results, out):
     gallery = out / "gallery"
     gallery.mkdir(parents=True, exist_ok=True)
     runs = {name: ended(results / name) for name in {*sum(FILMS.values(), ()), HISTORY, LEAD}}
-    written = [write(gallery / f"{LEAD}.png", sheets.sheet(runs[LEAD], telling_view(runs[LEAD]), sheets.SCREEN))]
+    written = [write(gallery / f"{LEAD}.png", sheets.Stills(runs[LEAD]).sheet(telling_view(runs[LEAD]), sheets.SCREEN))]
     written.append(write(gallery / "history.png", curves.page(runs[HISTORY], DPI)))
     written.append(write(gallery / f"house{HOUSE}.png", drawings.page(build_house(load_house(HOUSE)), DPI)))
     written.append(write(out / f"{EXAMPLE}.png", drawings.page(build_house(load_house(EXAMPLE)), DPI)))
@@ -128,7 +127,7 @@ def make(results, out):
         begin, end = (fallen_at(runs[pair[0]]) + time for time in SPAN)
         film.write(gallery / name, [runs[run] for run in pair], form=FILM, begin=begin, end=end)
         written.append(gallery / name)
-    written.append(write(out / f"{LEAD}.png", sheets.both_views(runs[LEAD], -1, sheets.END_DPI)))
+    written.append(write(out / f"{LEAD}.png", sheets.Stills(runs[LEAD]).both_views(-1, sheets.END_DPI)))
     return written + make_frames(results, gallery)
 
 

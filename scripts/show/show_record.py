@@ -53,8 +53,7 @@ def arguments():
                         help="time step of a run, for --resample [s] (default %(default)g)")
     parser.add_argument("--corner", type=float, default=0.05,
                         help="high-pass before PGV and PGD [Hz] (default %(default)g); 0: none")
-    parser.add_argument("--out", type=path,
-                        help="picture to write, .png or .pdf (default: NAME.png in this folder)")
+    parser.add_argument("--out", type=path, help="picture to write, .png or .pdf (default: NAME.png in this folder)")
     options = parser.parse_args(with_then(sys.argv[1:]))
     if options.record and options.positional:
         parser.error("RECORD and --record name the same option: give one")

@@ -106,7 +106,7 @@ def pictures(ranking, results, number):
     done = run_missing(tasks.values(), ranking.jobs)
     drawn = {text: task.folder for text, task in tasks.items() if done[task]}
     for folder in drawn.values():
-        all_pictures.draw(folder, views=True, page=True)
+        all_pictures.write(folder, page=True)
     return [(f"{text}, {worst}", folder.relative_to(ranking.folder)) for text, folder in drawn.items()]
 
 

@@ -337,8 +337,7 @@ def main():
         folder.mkdir(parents=True, exist_ok=True)
     motion, shaking = motion_of(given, given.out)
     files = {case: case.house_file(given.out, given.rule) for case in cases_of(given)}
-    runs = {case: tasks(path, shaking, given.runs, given.out) if case.has_runs else []
-            for case, path in files.items()}
+    runs = {case: tasks(path, shaking, given.runs, given.out) if case.has_runs else [] for case, path in files.items()}
     if not given.only_done:
         run_missing([task for each in zip_longest(*runs.values()) for task in each if task], given.jobs)
     rows = rows_of(given, runs, files, motion)

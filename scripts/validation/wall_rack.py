@@ -66,10 +66,8 @@ def measured_row(wall):
 def model_row(wall, name, curve):
     found = evaluate(curve)
     code = float(np.interp(wall.code_drift, *curve.T))
-    return _row(
-        wall, name,
-        [code, found.yield_load, found.ultimate_load, found.largest_load, found.largest_drift, found.ultimate_drift]
-    )
+    return _row(wall, name, [code, found.yield_load, found.ultimate_load, found.largest_load, found.largest_drift,
+                             found.ultimate_drift])
 
 
 def _row(wall, case, values):

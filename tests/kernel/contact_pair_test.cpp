@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Energy of points that separate or cease to exist, and initial overlap of new points.
+#include "../../benchmarks/timber_pair.hpp"
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <kernel/contact_pair.hpp>
@@ -235,5 +236,18 @@ TEST(Separation, EndsForceAndImpact)
 		const double n = 0.1 * overlap,
 		             force = form == NormalForm::Closed ? law.force(n) : law.stiffness(n) * n;
 		EXPECT_NEAR(records[0].normalForce, force, 1e-12 * force);
+	}
+}
+
+/// The pairs of benchmarks/ have the points and depths that they state, and their solver converges.
+TEST(Benchmark, PairsHaveTheirPoints)
+{
+	for (const bench::Configuration& c : bench::configurations()) {
+		bench::TimberPair pair(c);
+		for (int k = 0; k < 20; ++k)
+			pair.step(k);
+		EXPECT_EQ(pair.found().points, c.points) << c.name;
+		EXPECT_LT(pair.found().depthError, 1e-12) << c.name;
+		EXPECT_LT(pair.sweepsPerStep(), 20) << c.name;
 	}
 }

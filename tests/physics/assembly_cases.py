@@ -67,11 +67,9 @@ def stack_at_rest(duration=10.0, blocks=20):
     # Weight: remaining oscillation, 4e-12 after 10 s, and rounding, 3e-14 after 60 s. Creep: remainder of the
     # settlement, 2e-8 m, constant until 60 s. Energy: remaining oscillation, 3e-17 J (velocities of 1e-9 m/s), 3e-23 J
     # after 20 s. Sweeps in one direction only would increase the creep tenfold.
-    return [
-        Row("6", "stack: force on the plate [N]", weight(), load_on_fixed(), bound=1e-11, dt=DT, note=note),
-        Row("6", "stack: creep after 2 s [m]", 0, abs(positions() - settled).max(), bound=1e-7, dt=DT, note=note),
-        Row("6", "stack: kinetic energy [J]", 0, yt.energy()["kinetic"], bound=1e-15, dt=DT, note=note),
-    ]
+    return [Row("6", "stack: force on the plate [N]", weight(), load_on_fixed(), bound=1e-11, dt=DT, note=note),
+            Row("6", "stack: creep after 2 s [m]", 0, abs(positions() - settled).max(), bound=1e-7, dt=DT, note=note),
+            Row("6", "stack: kinetic energy [J]", 0, yt.energy()["kinetic"], bound=1e-15, dt=DT, note=note)]
 
 
 # --- arch and wedge ---------------------------------------------------------------------------------------------------
@@ -127,9 +125,8 @@ def arch_opens_at_the_limit():
     # %; the arch stands at 2 % above the limit, too. The creep of a standing arch is rounding.
     for share, stands in ((0.95, False), (1.05, True), (3.0, True)):
         moved, creep = run_parts(parts, share * limit, 2.0)
-        rows.append(
-            Row("6", f"arch: stands at {share:g} of the critical friction {limit:.4f} [-]", float(stands),
-                float(-moved[3, 2] < 1e-3), bound=0, dt=DT))
+        rows.append(Row("6", f"arch: stands at {share:g} of the critical friction {limit:.4f} [-]", float(stands),
+                        float(-moved[3, 2] < 1e-3), bound=0, dt=DT))
         if stands:
             rows.append(Row("6", f"arch at {share:g}: creep in the second second [m]", 0, creep, bound=1e-12, dt=DT))
     return rows
@@ -279,7 +276,5 @@ def house_weight(settle=0.5, average=0.2):
         forces.append(load_on_fixed())
     # Remaining oscillation: light beams of the entrance in their undamped joints, snow on its soft springs. Observed:
     # 1.3e-4 (C2), 1e-6 averaged after 1.2 s.
-    return [
-        Row("6", "house C2 with snow: force on the foundation [N]", weight(), np.mean(forces), bound=1e-3, dt=DT,
-            note="mean of 0.2 s after 0.5 s")
-    ]
+    return [Row("6", "house C2 with snow: force on the foundation [N]", weight(), np.mean(forces), bound=1e-3, dt=DT,
+                note="mean of 0.2 s after 0.5 s")]

@@ -43,17 +43,8 @@ def sticks_below_the_friction_angle():
     steps(5000)
     before = block.state.pos
     steps(100000)
-    return [
-        Row(
-            "2",
-            "incline at 0.98 tan(phi): creep in 10 s [m]",
-            0.0,
-            (block.state.pos - before).norm(),
-            bound=1e-12,
-            dt=1e-4,
-            note="rounding",
-        )
-    ]
+    return [Row("2", "incline at 0.98 tan(phi): creep in 10 s [m]", 0.0, (block.state.pos - before).norm(), bound=1e-12,
+                dt=1e-4, note="rounding")]
 
 
 @case
@@ -71,17 +62,9 @@ def slides_above_the_friction_angle():
         speed = block.state.vel.dot(down)
         steps(5000)
         got = (block.state.vel.dot(down) - speed) / 0.5
-        rows.append(
-            Row(
-                "2",
-                f"incline at {share:g} tan(phi): acceleration [m/s2]",
-                G * (np.sin(angle) - MU * np.cos(angle)),
-                got,
-                bound=1e-7,
-                dt=1e-4,
-                note="tolerance of the contact solver",
-            )
-        )
+        rows.append(Row("2", f"incline at {share:g} tan(phi): acceleration [m/s2]",
+                        G * (np.sin(angle) - MU * np.cos(angle)), got, bound=1e-7, dt=1e-4,
+                        note="tolerance of the contact solver"))
     return rows
 
 
@@ -125,38 +108,12 @@ def sliding_distance():
     dts = (4e-4, 2e-4, 1e-4, 5e-5)
     runs = [sliding_run(dt) for dt in dts]
     kinetic = DENSITY * np.prod(BLOCK) / 2
-    rows = series(
-        "2",
-        "sliding distance from 1 m/s [m]",
-        1 / (2 * MU * G),
-        [r["distance"] for r in runs],
-        dts,
-        4e-4,
-        0.9,
-        note="leapfrog: velocity at a half step",
-    )
-    rows.append(
-        Row(
-            "2",
-            "heat of sliding from 1 m/s [J]",
-            kinetic,
-            runs[2]["heat"],
-            bound=1e-6,
-            dt=dts[2],
-            note="energy that remains in the springs",
-        )
-    )
-    return rows + [
-        Row(
-            "2",
-            "energy balance of sliding: residual / (m v^2/2) [-]",
-            0.0,
-            runs[2]["residual"] / kinetic,
-            bound=1e-9,
-            dt=dts[2],
-            note="rounding",
-        )
-    ]
+    rows = series("2", "sliding distance from 1 m/s [m]", 1 / (2 * MU * G), [r["distance"] for r in runs], dts, 4e-4,
+                  0.9, note="leapfrog: velocity at a half step")
+    rows.append(Row("2", "heat of sliding from 1 m/s [J]", kinetic, runs[2]["heat"], bound=1e-6, dt=dts[2],
+                    note="energy that remains in the springs"))
+    return rows + [Row("2", "energy balance of sliding: residual / (m v^2/2) [-]", 0.0, runs[2]["residual"] / kinetic,
+                       bound=1e-9, dt=dts[2], note="rounding")]
 
 
 @case
@@ -165,14 +122,11 @@ def independent_of_position_and_direction():
     Observed: 3e-14 m and 2e-11 m (a coordinate of 1 km is rounded to 1e-13 m).
     """
     reference = sliding_run(1e-4)["end"]
-    poses = {
-        "rotated": [(turned((1, 2, 3), a), Vector3.Zero) for a in (0.7, 2.1, -1.3)],
-        "at 1 km": [(Quaternion.Identity, KM)],
-    }
+    poses = {"rotated": [(turned((1, 2, 3), a), Vector3.Zero) for a in (0.7, 2.1, -1.3)],
+             "at 1 km": [(Quaternion.Identity, KM)]}
     rows = []
     for name, where in poses.items():
         off = max((sliding_run(1e-4, orientation=q, origin=o)["end"] - reference).norm() for q, o in where)
-        rows.append(
-            Row("2", f"sliding, {name}: distance from the reference [m]", 0.0, off, bound=1e-9, dt=1e-4,
-                note="rounding"))
+        rows.append(Row("2", f"sliding, {name}: distance from the reference [m]", 0.0, off, bound=1e-9, dt=1e-4,
+                        note="rounding"))
     return rows

@@ -75,9 +75,8 @@ class Impact:
     def closed_form(self, v):
         """Undamped: duration [s], overlap [m] and force at one point [N] at the peak, restitution [-]."""
         depth = (5 * self.mass * v**2 / (4 * self.points * self.constant)) ** 0.4
-        return {
-            "duration": DURATION * depth / v, "overlap": depth, "force": self.constant * depth**1.5, "restitution": 1.0
-        }
+        return {"duration": DURATION * depth / v, "overlap": depth, "force": self.constant * depth**1.5,
+                "restitution": 1.0}
 
     def run(self, v, dt, span, phase=0.3, upper=None, **options):
         """Impact at v [m/s] that lasts less than 3 span [s]: the same quantities as closed_form().
@@ -98,9 +97,8 @@ class Impact:
         out = (overlap[-2] -
                overlap[-1]) / dt  # free flight before and after: both ends of the contact are extrapolated
         separation = len(overlap) * dt + overlap[-1] / out
-        return {
-            "duration": separation - gap / v, "overlap": peak(overlap), "force": peak(force), "restitution": out / v
-        }
+        return {"duration": separation - gap / v, "overlap": peak(overlap), "force": peak(force),
+                "restitution": out / v}
 
 
 def peak(samples):
@@ -143,15 +141,8 @@ def hertz_three_decades():
         got = [impact.run(v, e["duration"] / 200, e["duration"], damping_ratio=0) for v, e in zip(SPEEDS, expected)]
         for what in UNITS:
             pairs = [(e[what], g[what]) for e, g in zip(expected, got)]
-            rows.append(
-                worst(
-                    "1",
-                    f"Hertz impact, {kind}, worst of 0.01-10 m/s: {what} [{UNITS[what]}]",
-                    pairs,
-                    bound=3e-5,
-                    note="200 steps per contact; leapfrog error (dt/duration)^2 / 2",
-                )
-            )
+            rows.append(worst("1", f"Hertz impact, {kind}, worst of 0.01-10 m/s: {what} [{UNITS[what]}]", pairs,
+                              bound=3e-5, note="200 steps per contact; leapfrog error (dt/duration)^2 / 2"))
     return rows
 
 
@@ -162,16 +153,8 @@ def convergence(name, dts, bounds, least_order, note, **options):
     runs = [impact.run(1.0, dt, expected["duration"], damping_ratio=0, **options) for dt in dts]
     rows = []
     for what, bound in bounds.items():
-        rows += series(
-            "1",
-            f"Hertz impact, {name}: {what} [{UNITS[what]}]",
-            expected[what],
-            [r[what] for r in runs],
-            dts,
-            bound,
-            least_order,
-            note=note,
-        )
+        rows += series("1", f"Hertz impact, {name}: {what} [{UNITS[what]}]", expected[what], [r[what] for r in runs],
+                       dts, bound, least_order, note=note)
     return rows
 
 
@@ -191,14 +174,8 @@ def hertz_increment_form_converges():
     separating point bounds the error of the restitution.
     """
     bounds = {"duration": 0.012, "overlap": 0.015, "restitution": 0.015}
-    return convergence(
-        "increment form (Eq. 38)",
-        (5e-5, 2.5e-5, 1.25e-5),
-        bounds,
-        0.7,
-        "stiffness at the end of the step",
-        increment=True,
-    )
+    return convergence("increment form (Eq. 38)", (5e-5, 2.5e-5, 1.25e-5), bounds, 0.7,
+                       "stiffness at the end of the step", increment=True)
 
 
 def worst_phase(impact, v, dt, span, expected, **options):
@@ -223,15 +200,8 @@ def restitution_with_the_papers_dashpot():
         for v in SPEEDS:
             span = impact.closed_form(v)["duration"]
             pairs.append((expected, worst_phase(impact, v, span / 1600, span, expected)))
-        rows.append(
-            worst(
-                "1",
-                f"restitution, critical dashpot, {kind}, worst of 0.01-10 m/s [-]",
-                pairs,
-                bound=1e-3,
-                note="scipy DOP853; 1600 steps per contact, worst of 8 phases",
-            )
-        )
+        rows.append(worst("1", f"restitution, critical dashpot, {kind}, worst of 0.01-10 m/s [-]", pairs, bound=1e-3,
+                          note="scipy DOP853; 1600 steps per contact, worst of 8 phases"))
     return rows
 
 
@@ -247,16 +217,8 @@ def restitution_converges():
     rows = []
     for name, sweeps, bound, least in (("implicit", 4, 1e-3, 1.0), ("explicit", 0, 6e-3, 0.7)):
         got = [worst_phase(impact, 1.0, dt, span, expected, sweeps=sweeps) for dt in dts]
-        rows += series(
-            "1",
-            f"restitution, critical dashpot, {name} [-]",
-            expected,
-            got,
-            dts,
-            bound,
-            least,
-            note="scipy DOP853; worst of 8 phases of a step",
-        )
+        rows += series("1", f"restitution, critical dashpot, {name} [-]", expected, got, dts, bound, least,
+                       note="scipy DOP853; worst of 8 phases of a step")
     return rows
 
 
@@ -281,9 +243,8 @@ def restitution_of_short_contacts():
             got = [rebound(impact, 1.0, span / count, k / 8, damping_ratio=ratio) for k in range(8)]
             name = f"restitution, damping ratio {ratio:g}, contact of {count:g} steps [-]"
             worst_one = max(got, key=lambda g: abs(g - expected))
-            rows.append(
-                Row("1", name, expected, worst_one, bound=1e-9, dt=span / count,
-                    note="scipy DOP853; worst of 8 phases of a step"))
+            rows.append(Row("1", name, expected, worst_one, bound=1e-9, dt=span / count,
+                            note="scipy DOP853; worst of 8 phases of a step"))
     return rows
 
 
@@ -298,19 +259,9 @@ def snow_impact():
     impact, rate = Impact("plate"), np.sqrt(3.948e4)
     span, snow = np.pi / rate, yt.snow(friction=0)
     free = impact.run(1.0, span / 400, span, upper=snow, damping_ratio=0)
-    rows = [
-        Row("1", f"snow impact: {what} [{UNITS[what]}]", value, free[what], bound=1e-5, dt=span / 400, note="leapfrog")
-        for what, value in (("duration", span), ("overlap", 1 / rate))
-    ]
+    rows = [Row("1", f"snow impact: {what} [{UNITS[what]}]", value, free[what], bound=1e-5, dt=span / 400,
+                note="leapfrog") for what, value in (("duration", span), ("overlap", 1 / rate))]
     dts, expected = [span / 800 / 2**k for k in range(4)], np.exp(-2)
     got = [worst_phase(impact, 1.0, dt, span, expected, upper=snow) for dt in dts]
-    return rows + series(
-        "1",
-        "snow impact: restitution, critical dashpot [-]",
-        expected,
-        got,
-        dts,
-        1e-3,
-        0.8,
-        note="closed form exp(-2); worst of 8 phases of a step",
-    )
+    return rows + series("1", "snow impact: restitution, critical dashpot [-]", expected, got, dts, 1e-3, 0.8,
+                         note="closed form exp(-2); worst of 8 phases of a step")

@@ -62,9 +62,8 @@ def order_of_bodies():
     for scheme, bound in (("explicit", 1e-10), ("implicit", 2e-5)):
         options = SCHEMES[scheme]
         off = abs(final_positions(NAMES[::-1], **options) - final_positions(**options)).max()
-        rows.append(
-            Row("8", f"bodies in reverse order, {scheme} dashpots: distance [m]", 0, off, bound=bound,
-                dt=options["dt"]))
+        rows.append(Row("8", f"bodies in reverse order, {scheme} dashpots: distance [m]", 0, off, bound=bound,
+                        dt=options["dt"]))
     return rows
 
 
@@ -83,10 +82,8 @@ def far_apart_pairs():
     small_scene.join(other, **far)
     advance(DURATION)
     different = sum(a != b for a, b in zip(alone, small_scene.as_hex()))
-    return [
-        Row("8", "second scene at 100 m: numbers of the first that differ [-]", 0, different, bound=0, dt=O.dt,
-            note="of 52, all bits")
-    ]
+    return [Row("8", "second scene at 100 m: numbers of the first that differ [-]", 0, different, bound=0, dt=O.dt,
+                note="of 52, all bits")]
 
 
 def in_other_process(threads, duration=DURATION, *words):

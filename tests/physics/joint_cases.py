@@ -89,16 +89,8 @@ def frequencies():
         rates, modes, mass = linear_modes(stiffness, STIFFNESS_SHARE[per])
         pairs = [(w, mode_frequency(modes[:, k], mass, w, dt, stiffness=stiffness, per=per))
                  for k, w in enumerate(rates)]
-        rows.append(
-            worst(
-                "4",
-                f"joint, per {per}, ks = {ks:g} kn: worst of 6 modes [rad/s]",
-                pairs,
-                1.2e-4,
-                dt=dt,
-                note="leapfrog, (w dt)^2 / 24",
-            )
-        )
+        rows.append(worst("4", f"joint, per {per}, ks = {ks:g} kn: worst of 6 modes [rad/s]", pairs, 1.2e-4, dt=dt,
+                          note="leapfrog, (w dt)^2 / 24"))
     return rows
 
 
@@ -148,9 +140,8 @@ def damping_ratio_of_each_mode():
     rates, modes, mass = linear_modes((STIFFNESS, STIFFNESS), 1.0)
     for ratio in (0.02, 0.05, 0.3):
         pairs = [(ratio, decay(dt, modes[:, k], mass, w, ratio)) for k, w in enumerate(rates)]
-        rows.append(
-            worst("4", f"joint with a damping ratio of {ratio:g}: worst of 6 modes [-]", pairs, 2e-3, dt=dt,
-                  note="leapfrog and trapezoidal dashpot"))
+        rows.append(worst("4", f"joint with a damping ratio of {ratio:g}: worst of 6 modes [-]", pairs, 2e-3, dt=dt,
+                          note="leapfrog and trapezoidal dashpot"))
     return rows
 
 
@@ -186,31 +177,12 @@ def breaks_at_the_strength():
             stretch, force, released, causes = break_joint(cause, per)
             assert causes == [cause] * 4, causes
             name = f"{cause} to failure, per {per}"
-            rows.append(
-                Row("4", f"{name}: stretch [m]", STRETCH, stretch, bound=1.01e-4, dt=1e-4,
-                    note="displacement in one step"))
-            rows.append(
-                Row(
-                    "4",
-                    f"{name}: force of the joint [N]",
-                    count * STRENGTH,
-                    force,
-                    bound=1.01e-4,
-                    dt=1e-4,
-                    note="displacement in one step",
-                )
-            )
-            rows.append(
-                Row(
-                    "4",
-                    f"{name}: energy released [J]",
-                    count * STRENGTH**2 / (2 * STIFFNESS),
-                    released,
-                    bound=2.03e-4,
-                    dt=1e-4,
-                    note="displacement in one step",
-                )
-            )
+            rows.append(Row("4", f"{name}: stretch [m]", STRETCH, stretch, bound=1.01e-4, dt=1e-4,
+                            note="displacement in one step"))
+            rows.append(Row("4", f"{name}: force of the joint [N]", count * STRENGTH, force, bound=1.01e-4, dt=1e-4,
+                            note="displacement in one step"))
+            rows.append(Row("4", f"{name}: energy released [J]", count * STRENGTH**2 / (2 * STIFFNESS), released,
+                            bound=2.03e-4, dt=1e-4, note="displacement in one step"))
     return rows
 
 
@@ -226,10 +198,8 @@ def broken_joints_stay_broken():
     engine = O.engines[1]
     values = steps(4000, lambda: (O.forces.f(1).norm(), O.forces.t(1).norm(), engine.elastic, len(engine.breaks)))
     assert column.state.pos[2] < 0.3, "the column has not passed the joint"
-    rows = [
-        Row("4", f"broken joint: largest {what}", 0.0, value, bound=0.0, dt=1e-3, note="exact")
-        for what, value in zip(("force [N]", "torque [N m]", "energy [J]"), values.max(0))
-    ]
+    rows = [Row("4", f"broken joint: largest {what}", 0.0, value, bound=0.0, dt=1e-3, note="exact") for what,
+            value in zip(("force [N]", "torque [N m]", "energy [J]"), values.max(0))]
     return rows + [Row("4", "broken joint: breaks in the log [-]", 4, values[-1, 3], bound=0.0, dt=1e-3, note="exact")]
 
 
@@ -295,10 +265,8 @@ def swing(dt, count, ks=1.0):
     assert not any(joint.broken)
     balance = change[:, 0] / first[0]
     parts = {"linear momentum": slice(1, 4), "angular momentum": slice(4, 7)}
-    found = {
-        name: np.linalg.norm(change[:, part], axis=1).max() / np.linalg.norm(first[part])
-        for name, part in parts.items()
-    }
+    found = {name: np.linalg.norm(change[:, part], axis=1).max() / np.linalg.norm(first[part]) for name,
+             part in parts.items()}
     return {
         "energy band": np.abs(balance - balance.mean()).max(),
         "energy drift": balance[-100:].mean() - balance[:100].mean(),
@@ -315,10 +283,8 @@ def a_million_steps_unbroken():
     """
     got, dt = swing(1e-4, 1000000), 1e-4
     bounds = {"energy band": 1e-5, "energy drift": 1e-6, "linear momentum": 1e-11, "angular momentum": 1e-11}
-    return [
-        Row("4", f"unbroken joint, 1e6 steps: {what} [-]", 0.0, got[what], bound=bound, dt=dt,
-            note="leapfrog; rounding of momenta") for what, bound in bounds.items()
-    ]
+    return [Row("4", f"unbroken joint, 1e6 steps: {what} [-]", 0.0, got[what], bound=bound, dt=dt,
+                note="leapfrog; rounding of momenta") for what, bound in bounds.items()]
 
 
 @case
@@ -340,7 +306,6 @@ def energy_band_converges():
             note="leapfrog",
         )
         change = max(r["angular momentum"] for r in runs)
-        rows.append(
-            Row("4", f"unbroken joint, ks = {ks:g} kn, 10 s: angular momentum [-]", 0.0, change, bound=1e-11,
-                note="rounding"))
+        rows.append(Row("4", f"unbroken joint, ks = {ks:g} kn, 10 s: angular momentum [-]", 0.0, change, bound=1e-11,
+                        note="rounding"))
     return rows

@@ -19,10 +19,8 @@ MOMENTS = DENSITY * EDGES.prod() / 12 * ((EDGES**2).sum() - EDGES**2)
 """Moments of inertia about x, y, z. [kg m2]"""
 START = np.array((0.05, 6.0, 0.1))
 """Angular velocity at t = 0, almost about the intermediate axis. [rad/s]"""
-INTEGRATORS = {
-    "SymplecticIntegrator": yw.SymplecticIntegrator,
-    "NewtonIntegrator": lambda: yw.NewtonIntegrator(damping=0, exactAsphericalRot=True),
-}
+INTEGRATORS = {"SymplecticIntegrator": yw.SymplecticIntegrator,
+               "NewtonIntegrator": lambda: yw.NewtonIntegrator(damping=0, exactAsphericalRot=True)}
 
 
 class Jacobi:
@@ -118,9 +116,8 @@ def table(integrator, dts, quantities, momentum_bound=1e-13):
     for name, (key, expected, bound, order) in quantities.items():
         rows += series("5", f"{integrator}: {name}", expected, [run[key] for run in runs], dts, bound, order, note=note)
     change = max(run["momentum"] for run in runs)  # observed 1.3e-15 for any dt
-    return rows + [
-        Row("5", f"{integrator}: largest change of |L| [-]", 0.0, change, bound=momentum_bound, note="rounding")
-    ]
+    return rows + [Row("5", f"{integrator}: largest change of |L| [-]", 0.0, change, bound=momentum_bound,
+                       note="rounding")]
 
 
 @case
@@ -146,17 +143,8 @@ def symplectic_integrator_does_not_drift():
     """One minute, 20 flips: the energy error remains of the order dt^2, without drift."""
     body, probe = tumbling("SymplecticIntegrator", 1e-3)
     energy = np.abs(steps(60000, probe, every=20)[:, 1] / JACOBI.twice_energy - 1)
-    return [
-        Row(
-            "5",
-            "SymplecticIntegrator: largest change of energy in the last of 60 s [-]",
-            0.0,
-            energy[-500:].max(),
-            bound=5e-7,
-            dt=1e-3,
-            note="second order; no drift",
-        )
-    ]
+    return [Row("5", "SymplecticIntegrator: largest change of energy in the last of 60 s [-]", 0.0, energy[-500:].max(),
+                bound=5e-7, dt=1e-3, note="second order; no drift")]
 
 
 @case
@@ -190,17 +178,7 @@ def free_fall():
     rest at t = 0 is late by dt / 2: order 1.
     """
     expected, dts = -G / 2, (4e-4, 2e-4, 1e-4)
-    rows = series(
-        "5",
-        "free fall for 1 s, at rest at -dt/2 [m]",
-        expected,
-        [fall(dt, 0.0) for dt in dts],
-        dts,
-        2e-4,
-        0.9,
-        note="leapfrog: velocity at a half step",
-    )
-    return rows + [
-        Row("5", "free fall for 1 s, at rest at 0 [m]", expected, fall(1e-4, G * 1e-4 / 2), bound=1e-12, dt=1e-4,
-            note="rounding")
-    ]
+    rows = series("5", "free fall for 1 s, at rest at -dt/2 [m]", expected, [fall(dt, 0.0) for dt in dts], dts, 2e-4,
+                  0.9, note="leapfrog: velocity at a half step")
+    return rows + [Row("5", "free fall for 1 s, at rest at 0 [m]", expected, fall(1e-4, G * 1e-4 / 2), bound=1e-12,
+                       dt=1e-4, note="rounding")]

@@ -62,10 +62,8 @@ def by_count(quantity, expected, work, counts, bound, least_order, note):
     """
     rows = series("2", quantity, expected, [work(count) for count in counts], [1 / count for count in counts], bound,
                   least_order, note=note)
-    return [
-        dataclasses.replace(row, quantity=f"{row.quantity[:-4]}, {count} steps [J]", dt=None)
-        for row, count in zip(rows, counts)
-    ]
+    return [dataclasses.replace(row, quantity=f"{row.quantity[:-4]}, {count} steps [J]", dt=None) for row,
+            count in zip(rows, counts)]
 
 
 def deeper(overlap):
@@ -80,16 +78,8 @@ def elastic_cycle():
     block = pair()[1]
     reach = 0.5 * MU * FORCE / STIFFNESS
     work = sum(move(block, (d, 0, 0), 50) for d in (reach, -2 * reach, reach))
-    return [
-        Row(
-            "2",
-            "elastic tangential cycle: work / stored energy [-]",
-            0.0,
-            work / (STIFFNESS * reach**2 / 2),
-            bound=1e-9,
-            note="rounding",
-        )
-    ]
+    return [Row("2", "elastic tangential cycle: work / stored energy [-]", 0.0, work / (STIFFNESS * reach**2 / 2),
+                bound=1e-9, note="rounding")]
 
 
 @case
@@ -107,15 +97,8 @@ def slip_cycle():
         move(block, (reach, 0, 0), count // 4)
         return move(block, (-2 * reach, 0, 0), count // 2) + move(block, (2 * reach, 0, 0), count // 2)
 
-    return by_count(
-        "slip cycle: work [J]",
-        4 * MU * FORCE * (reach - limit),
-        work,
-        (400, 800, 1600),
-        5e-6,
-        1.8,
-        "corner of the loop inside a step",
-    )
+    return by_count("slip cycle: work [J]", 4 * MU * FORCE * (reach - limit), work, (400, 800, 1600), 5e-6, 1.8,
+                    "corner of the loop inside a step")
 
 
 @case
@@ -134,15 +117,8 @@ def slip_circle():
         move(block, path[0], 100)
         return [sum(move(block, step, 1) for step in np.diff(path, axis=0)) for _ in range(2)][1]
 
-    return by_count(
-        "slip on a circle, one revolution: work [J]",
-        2 * np.pi * MU * FORCE * np.sqrt(reach**2 - limit**2),
-        work,
-        (500, 1000, 2000),
-        2e-3,
-        0.9,
-        "radial return",
-    )
+    return by_count("slip on a circle, one revolution: work [J]", 2 * np.pi * MU * FORCE * np.sqrt(reach**2 - limit**2),
+                    work, (500, 1000, 2000), 2e-3, 0.9, "radial return")
 
 
 @case
@@ -190,13 +166,5 @@ def closed_paths_create_no_energy():
         parts = [leg * mask for leg in legs for mask in ((1, 1, 0), (0, 0, 1))]
         least = min(least, sum(move(block, part, 20) for part in parts))
     scale = STIFFNESS * limit**2 / 2
-    return [
-        Row(
-            "2",
-            "random closed paths: energy created / stored at the limit [-]",
-            0.0,
-            max(0.0, -least / scale),
-            bound=1e-9,
-            note="rounding; dissipation is not counted",
-        )
-    ]
+    return [Row("2", "random closed paths: energy created / stored at the limit [-]", 0.0, max(0.0, -least / scale),
+                bound=1e-9, note="rounding; dissipation is not counted")]

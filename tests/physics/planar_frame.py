@@ -153,8 +153,7 @@ class Frame:
         self.pair_mass = 1 / (inverse[self.of] + inverse[self.on])  # Eq. 43
 
     def _set_springs(self, ties):
-        rows = [(self.index[t.first], self.index[t.second], flat(point), t.stiffness)
-                for t in ties
+        rows = [(self.index[t.first], self.index[t.second], flat(point), t.stiffness) for t in ties
                 for point in t.points]
         columns = list(zip(*rows)) if rows else [[], [], [], []]
         self.spring_a, self.spring_b = np.array(columns[0], int), np.array(columns[1], int)

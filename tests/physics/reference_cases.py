@@ -53,7 +53,6 @@ def portal_frame():
         # The time of landing is resolved to dt, and the sliding distance until then is permanent. Observed: 1.2e-3 and
         # 4e-4 of the peak.
         off = abs(in_plane(in_yade(dt)) - moved).max() / peak
-        rows.append(
-            Row("9", "portal: implicit dashpots, largest distance / peak [-]", 0, off, bound=bound, dt=dt,
-                note=f"peak {peak:.3g} m"))
+        rows.append(Row("9", "portal: implicit dashpots, largest distance / peak [-]", 0, off, bound=bound, dt=dt,
+                        note=f"peak {peak:.3g} m"))
     return rows

@@ -95,28 +95,11 @@ def quarter_period_of_rocking():
     rows = []
     for share in (0.3, 0.6, 0.9):
         got = rocking_time(share * TOPPLE, 1e-4)
-        rows.append(
-            Row(
-                "3",
-                f"quarter period from {share:g} alpha, rolling rigid block [s]",
-                quarter_period(share * TOPPLE),
-                got,
-                bound=1e-4,
-                dt=1e-4,
-                note="quadrature; compression of the contact points",
-            )
-        )
-        rows.append(
-            Row(
-                "3",
-                f"quarter period from {share:g} alpha, Housner [s]",
-                housner(share * TOPPLE),
-                got,
-                bound=1e-2,
-                dt=1e-4,
-                note="small angles in Housner's formula",
-            )
-        )
+        rows.append(Row("3", f"quarter period from {share:g} alpha, rolling rigid block [s]",
+                        quarter_period(share * TOPPLE), got, bound=1e-4, dt=1e-4,
+                        note="quadrature; compression of the contact points"))
+        rows.append(Row("3", f"quarter period from {share:g} alpha, Housner [s]", housner(share * TOPPLE), got,
+                        bound=1e-2, dt=1e-4, note="small angles in Housner's formula"))
     return rows
 
 
@@ -138,9 +121,8 @@ def topple_angle():
     for _ in range(10):
         middle = (low + high) / 2
         low, high = (low, middle) if topples(middle) else (middle, high)
-    return [
-        Row("3", "topple angle [rad]", TOPPLE, (low + high) / 2, bound=5e-5, dt=2e-4, note="width of the last interval")
-    ]
+    return [Row("3", "topple angle [rad]", TOPPLE, (low + high) / 2, bound=5e-5, dt=2e-4,
+                note="width of the last interval")]
 
 
 def standing_block(acceleration, dt=1e-4):
@@ -178,28 +160,10 @@ def uplift():
     for _ in range(7):
         middle = (low + high) / 2
         low, high = (low, middle) if uplifts(middle) else (middle, high)
-    rows = [
-        Row(
-            "3",
-            "uplift: acceleration of the base [m/s2]",
-            expected,
-            (low + high) / 2,
-            bound=1.2e-3,
-            dt=2e-4,
-            note="tilt of the elastic base",
-        )
-    ]
+    rows = [Row("3", "uplift: acceleration of the base [m/s2]", expected, (low + high) / 2, bound=1.2e-3, dt=2e-4,
+                note="tilt of the elastic base")]
     block, start = standing_block(0.5 * expected)
     steps(20000)
     left = sum(c["normal_force"] for c in yt.contacts(0, 1) if c["position"][0] > block.state.pos[0])
-    return rows + [
-        Row(
-            "3",
-            "load on the side that lifts, at half the uplift acceleration [N]",
-            MASS * G / 4,
-            left,
-            bound=1e-3,
-            dt=1e-4,
-            note="tilt of the elastic base",
-        )
-    ]
+    return rows + [Row("3", "load on the side that lifts, at half the uplift acceleration [N]", MASS * G / 4, left,
+                       bound=1e-3, dt=1e-4, note="tilt of the elastic base")]

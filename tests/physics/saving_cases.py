@@ -41,10 +41,8 @@ def save_load_continue():
     """The run is saved and loaded at one of three times and continued to its end."""
     load()
     advance(END)
-    rows = [
-        Row("8", "save and load: springs broken in the run (> 0) [-]", 1,
-            float(len(find_engine(yw.JointEngine).breaks) > 0), bound=0)
-    ]
+    rows = [Row("8", "save and load: springs broken in the run (> 0) [-]", 1,
+                float(len(find_engine(yw.JointEngine).breaks) > 0), bound=0)]
     return rows + continued("")
 
 
@@ -54,10 +52,8 @@ def save_load_continue_yielding():
     load(**small_scene.YIELDING)
     advance(END)
     dissipated, broken = yt.energy()["joint_yield"], len(find_engine(yw.JointEngine).breaks)
-    rows = [
-        Row("8", "save and load: yielding joints dissipate (> 0.1 J) and do not break [-]", 1,
-            float(dissipated > 0.1 and not broken), bound=0)
-    ]
+    rows = [Row("8", "save and load: yielding joints dissipate (> 0.1 J) and do not break [-]", 1,
+                float(dissipated > 0.1 and not broken), bound=0)]
     return rows + continued("yielding joints, ", **small_scene.YIELDING)
 
 
@@ -78,7 +74,6 @@ def continued(name, **joints):
         state, energies, breaks = outcome()
         different = sum(a != b for a, b in zip(state, uninterrupted[0]))
         different += sum(energies[term] != uninterrupted[1][term] for term in energies) + (breaks != uninterrupted[2])
-        rows.append(
-            Row("8", f"{name}saved and loaded at {cut:g} s: numbers that differ [-]", 0, different, bound=0, dt=1e-4,
-                note="all bits of positions, velocities, energies, breaks"))
+        rows.append(Row("8", f"{name}saved and loaded at {cut:g} s: numbers that differ [-]", 0, different, bound=0,
+                        dt=1e-4, note="all bits of positions, velocities, energies, breaks"))
     return rows

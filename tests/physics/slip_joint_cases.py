@@ -73,12 +73,10 @@ def loop_area():
             limit = backbone(a) / STIFFNESS
             area = count * 4 * SHARE * backbone(a) * (a - limit)
             name = f"yielding joint, per {per}, steady cycle of {1000 * a:g} mm"
-            rows.append(
-                Row("4", f"{name}: area of the loop [J]", area, work(loop), bound=1e-6, dt=dt,
-                    note="recoil of the column"))
-            rows.append(
-                Row("4", f"{name}: energy dissipated [J]", area, loop[-1, 2] - loop[0, 2], bound=1e-6, dt=dt,
-                    note="recoil of the column"))
+            rows.append(Row("4", f"{name}: area of the loop [J]", area, work(loop), bound=1e-6, dt=dt,
+                            note="recoil of the column"))
+            rows.append(Row("4", f"{name}: energy dissipated [J]", area, loop[-1, 2] - loop[0, 2], bound=1e-6, dt=dt,
+                            note="recoil of the column"))
     return rows
 
 
@@ -103,9 +101,8 @@ def pinching():
             )
             slip = np.sign(stretch) * STIFFNESS * max(0.0, abs(stretch) - slack)
             off = max(off, abs(got / 4 - share * friction - (1 - share) * slip))
-        rows.append(
-            Row("4", f"yielding joint, friction share {share:g}, pinching path: largest error / F [-]", 0,
-                off / STRENGTH, bound=1e-5, dt=dt, note="recoil of the column"))
+        rows.append(Row("4", f"yielding joint, friction share {share:g}, pinching path: largest error / F [-]", 0,
+                        off / STRENGTH, bound=1e-5, dt=dt, note="recoil of the column"))
     return rows
 
 
@@ -168,7 +165,6 @@ def oscillator_that_yields():
                    note="leapfrog")
     rows += series("4", "oscillator that yields: residual / energy [-]", 0, [run[1] for run in runs], dts, 1e-3, 1.0,
                    note="leapfrog; kinks within a step")
-    rows.append(
-        Row("4", "oscillator that yields: share of the energy dissipated (> 0.5) [-]", 1, float(runs[-1][2] > 0.5),
-            bound=0))
+    rows.append(Row("4", "oscillator that yields: share of the energy dissipated (> 0.5) [-]", 1,
+                    float(runs[-1][2] > 0.5), bound=0))
     return rows

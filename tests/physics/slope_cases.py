@@ -83,9 +83,8 @@ def compared(name, energy, directions, scale, bound):
     rows = []
     for what, direction in directions.items():
         acting, expected = slope(energy, np.array(direction, float))
-        rows.append(
-            Row("8", f"{name}, {what}: force or torque [N, N m]", expected, acting,
-                error=abs(acting - expected) / scale, bound=bound, note="minus the derivative of the energy"))
+        rows.append(Row("8", f"{name}, {what}: force or torque [N, N m]", expected, acting,
+                        error=abs(acting - expected) / scale, bound=bound, note="minus the derivative of the energy"))
     return rows
 
 
@@ -137,9 +136,6 @@ def first_body(name, engine, scale):
     force = [np.array(O.forces.f(k, True)) for k in (0, 1)]
     moment = [np.array(O.forces.t(k, True)) + np.cross(O.bodies[k].state.pos, force[k]) for k in (0, 1)]
     # Rounding of moments of 1e4 N m.
-    return [
-        Row("8", f"joint, {name} stiffnesses: sum of forces / force [-]", 0,
-            np.linalg.norm(sum(force)) / scale, bound=1e-12),
-        Row("8", f"joint, {name} stiffnesses: sum of moments / moment [-]", 0,
-            np.linalg.norm(sum(moment)) / scale, bound=1e-12),
-    ]
+    return [Row("8", f"joint, {name} stiffnesses: sum of forces / force [-]", 0, np.linalg.norm(sum(force)) / scale,
+                bound=1e-12), Row("8", f"joint, {name} stiffnesses: sum of moments / moment [-]", 0,
+                                  np.linalg.norm(sum(moment)) / scale, bound=1e-12)]

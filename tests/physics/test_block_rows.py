@@ -1,13 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Rows of falling blocks: scripts/validation/block_rows.py against the theory of rigid blocks, block by block."""
-import pathlib
-import sys
-
 import numpy as np
 import pytest
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts" / "validation"))
-
 from block_rows import FIRST_VELOCITY, HEIGHT, LAST, NUMBER, THICKNESS, measured_touch_times
 from row_of_blocks import Row, touch_times, wave_speed
 

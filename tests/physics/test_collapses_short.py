@@ -1,11 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Short forms of tests/stress/test_collapses.py (label `stress`): a frame, a house under snow."""
-import pathlib
-import sys
 from dataclasses import replace
 from math import nan
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "stress"))
 
 import pytest
 from collapses import Case, Heap, expect_sound, frames, outcome

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 import yade.wrapper as yw
 from yade_timber.scene.engines import find_engine
-
 from timber_houses.scene.scenario import Scenario, build
 
 O = yw.Omega()
@@ -59,8 +58,7 @@ def profile(node):
     """(n, 2) corners of a node: a face across each of its bars, others about 45 degrees apart. u points to -x."""
     normals = [direction(bar) if bar[0] == node else -direction(bar) for bar in BARS if node in bar]
     angles = [np.arctan2(n[1], n[0]) for n in normals]
-    angles += [a for a in np.radians(range(0, 360, 45))
-               if max(np.cos(a - b) for b in angles) < np.cos(np.radians(25))]
+    angles += [a for a in np.radians(range(0, 360, 45)) if max(np.cos(a - b) for b in angles) < np.cos(np.radians(25))]
     n = np.array([(np.cos(a), np.sin(a)) for a in sorted(np.mod(angles, 2 * np.pi))])
     corners = [np.linalg.solve([a, b], [RADIUS, RADIUS]) for a, b in zip(n, np.roll(n, -1, 0))]
     return [[float(-u), float(v)] for u, v in corners]

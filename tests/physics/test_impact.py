@@ -4,12 +4,10 @@ import pytest
 from impact_cases import case
 from rows import check
 
-
 LONG = ("restitution_with_the_papers_dashpot", "snow_impact")
 
 
-@pytest.mark.parametrize(
-    "function", [pytest.param(f, marks=pytest.mark.rare if f.__name__ in LONG else ()) for f in case.functions],
-    ids=lambda f: f.__name__)
+@pytest.mark.parametrize("function", [pytest.param(f, marks=pytest.mark.rare if f.__name__ in LONG else ())
+                                      for f in case.functions], ids=lambda f: f.__name__)
 def test(function):
     check(function())

@@ -1,12 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The column of this package in docs/mechanics.md at the default step, and a falsified scene for each of its rows."""
-import pathlib
-import sys
-
 import pytest
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts/bench"))
-
 from mechanics.program import measured
 from mechanics.programs import timber
 from mechanics.rows import table

@@ -1,14 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The promises of docs/mechanics.md that no row of its table shows."""
-import pathlib
-import sys
-
 import pytest
 import yade.wrapper as yw
 import yade_timber as yt
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts/bench"))
-
 from mechanics import joints, loads
 from mechanics.programs import timber
 

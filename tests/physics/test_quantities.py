@@ -127,8 +127,7 @@ def test_shear_is_the_force_of_the_columns():
     monitor = yw.Sampler(bodies=[*columns, slab], groups=[1] * 4 + [2], interval=0.0)
     O.engines, O.dt = yt.engines(ground_motion=motion, monitor=monitor), 1e-4
     joints = [(yt.connect(a, b, corners(O.bodies[c].state.pos[0], O.bodies[c].state.pos[1], z), (0, 0, 1)), a == base)
-              for c in columns
-              for a, b, z in ((base, c, 0), (c, slab, 1.0))]
+              for c in columns for a, b, z in ((base, c, 0), (c, slab, 1.0))]
     forces = []
     for _ in range(400):
         O.step()

@@ -7,35 +7,27 @@ import pytest
 from rows import Row, check, observed_order, series, worst
 
 
-@pytest.mark.parametrize(
-    "row",
-    [
-        Row("1", "q", 2.0, 2.002, bound=1.1e-3),
-        Row("1", "expected zero: absolute", 0.0, 1e-3, bound=1.1e-3),
-        Row("1", "absolute", 100.0, 100.5, bound=0.6, absolute=True),
-        Row("1", "no bound", 1.0, 5.0),
-        Row("1", "order", 1.0, 1.0, bound=0.1, order=2.0, least_order=1.9),
-    ],
-    ids=lambda r: r.quantity,
-)
+@pytest.mark.parametrize("row", [
+    Row("1", "q", 2.0, 2.002, bound=1.1e-3),
+    Row("1", "expected zero: absolute", 0.0, 1e-3, bound=1.1e-3),
+    Row("1", "absolute", 100.0, 100.5, bound=0.6, absolute=True),
+    Row("1", "no bound", 1.0, 5.0),
+    Row("1", "order", 1.0, 1.0, bound=0.1, order=2.0, least_order=1.9),
+], ids=lambda r: r.quantity)
 def test_passes(row):
     check([row])
 
 
-@pytest.mark.parametrize(
-    "row",
-    [
-        Row("1", "wrong value", 2.0, 2.002, bound=0.9e-3),
-        Row("1", "not a number", 1.0, math.nan, bound=1e9),
-        Row("1", "not a number, no bound", 1.0, math.nan),
-        Row("1", "infinite", 1.0, math.inf),
-        Row("1", "no reference", math.nan, 1.0, bound=1e9),
-        Row("1", "order lost", 1.0, 1.0, bound=0.1, order=1.2, least_order=1.9),
-        Row("1", "order unknown", 1.0, 1.0, bound=0.1, order=math.nan, least_order=1.9),
-        Row("1", "order missing", 1.0, 1.0, bound=0.1, least_order=1.9),
-    ],
-    ids=lambda r: r.quantity,
-)
+@pytest.mark.parametrize("row", [
+    Row("1", "wrong value", 2.0, 2.002, bound=0.9e-3),
+    Row("1", "not a number", 1.0, math.nan, bound=1e9),
+    Row("1", "not a number, no bound", 1.0, math.nan),
+    Row("1", "infinite", 1.0, math.inf),
+    Row("1", "no reference", math.nan, 1.0, bound=1e9),
+    Row("1", "order lost", 1.0, 1.0, bound=0.1, order=1.2, least_order=1.9),
+    Row("1", "order unknown", 1.0, 1.0, bound=0.1, order=math.nan, least_order=1.9),
+    Row("1", "order missing", 1.0, 1.0, bound=0.1, least_order=1.9),
+], ids=lambda r: r.quantity)
 def test_fails(row):
     good = Row("1", "good", 1.0, 1.0, bound=0.0)
     with pytest.raises(AssertionError, match=row.quantity):

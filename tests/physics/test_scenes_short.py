@@ -1,11 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Short form of tests/stress/test_scenes.py (label `stress`): a scene of some families; and the judges can fail."""
-import pathlib
-import sys
 from dataclasses import replace
 from math import inf, nan
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "stress"))
 
 import numpy as np
 import pytest
@@ -40,8 +36,7 @@ def test_overlap_of_cubes(gap):
     level = core.placed(np.zeros(3), np.eye(3))
     about_y = core.placed(np.zeros(3), np.array([[root, 0, root], [0, 1, 0], [-root, 0, root]]))
     about_x = np.array([[1, 0, 0], [0, root, -root], [0, root, root]])
-    placements = [(level, [0.03, 0.02, 2 * half + gap], np.eye(3)),
-                  (about_y, [0, 0, 2 * 2**0.5 * half + gap], about_x)]
+    placements = [(level, [0.03, 0.02, 2 * half + gap], np.eye(3)), (about_y, [0, 0, 2 * 2**0.5 * half + gap], about_x)]
     if gap > 0:
         placements.append((level, np.full(3, 2 * half + gap / 3**0.5), np.eye(3)))
     for below, position, rotation in placements:

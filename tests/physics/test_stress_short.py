@@ -1,10 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Short forms of the stress tests (tests/stress, label `stress`)."""
-import pathlib
-import sys
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "stress"))
-
 import extreme_runs
 import pytest
 import stable_steps

@@ -5,17 +5,12 @@ The storey is moved as a mechanism: columns turn about their feet by the angle t
 a circle. The wall's shear is the force between the beams plus the force between the columns times L / h.
 """
 import math
-import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
 from yade import O
 from yade.minieigenHP import Vector3
 from yade_timber.scene import queries
-
-sys.path.append(str(Path(__file__).resolve().parents[2] / "scripts" / "validation"))
-
 from rack import Rack
 
 LENGTH, HEIGHT = 0.91, 2.73

@@ -2,14 +2,8 @@
 """The wall rack of scripts/validation: monotonic push and a few cycles of walls of tests, beside the tests' loads; the
 usual evaluation.
 """
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
-
-sys.path.append(str(Path(__file__).resolve().parents[2] / "scripts" / "validation"))
-
 from evaluation import evaluate
 from measured_walls import HEIGHT, WALLS
 from rack import Rack, envelope

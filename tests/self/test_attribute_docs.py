@@ -27,9 +27,8 @@ def undocumented(cls):
     return [name for name, item in described.items() if not UNIT_AT_END.search(own_doc(item.__doc__))]
 
 
-@pytest.mark.parametrize(
-    "doc",
-    ["Width. [m]", "Ratio. [-] (paper, Eq. 36)", "Load. [kN/m²] (Table 1).", "|ystatic| Size. [m] :ydefault:`1`"])
+@pytest.mark.parametrize("doc", ["Width. [m]", "Ratio. [-] (paper, Eq. 36)", "Load. [kN/m²] (Table 1).",
+                                 "|ystatic| Size. [m] :ydefault:`1`"])
 def test_accepts(doc):
     assert UNIT_AT_END.search(own_doc(doc))
 

@@ -37,9 +37,8 @@ def test_limits_stand_once():
             for line in copies(path.read_text())] == []
 
 
-@pytest.mark.parametrize("source, found", [
-    ("SAFETY = 1 / 30", [1]), ("x = f'passes 1/{n}, over 1/10'", [1]), ("'''1/10'''\nx = 1 / 31", []),
-])
+@pytest.mark.parametrize("source, found", [("SAFETY = 1 / 30", [1]), ("x = f'passes 1/{n}, over 1/10'", [1]),
+                                           ("'''1/10'''\nx = 1 / 31", [])])
 def test_a_copy_is_found(source, found):
     assert list(copies(source)) == found
 

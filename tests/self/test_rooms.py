@@ -67,10 +67,8 @@ def imported(text, module, room="timber_houses"):
             names = [start + alias.name.split(".") for alias in node.names]
         else:
             continue
-        names_of_parts |= {
-            name[depth] if name[:depth] == room.split(".") and len(name) > depth else name[0]
-            for name in names if ".".join(name[:2]) not in WITHOUT_YADE
-        }
+        names_of_parts |= {name[depth] if name[:depth] == room.split(".") and len(name) > depth else name[0]
+                           for name in names if ".".join(name[:2]) not in WITHOUT_YADE}
     return {"yade" if name == "yade_timber" else name for name in names_of_parts}
 
 
@@ -82,14 +80,9 @@ def offences(package, forbidden=FORBIDDEN, room="timber_houses"):
         for path in (package / inside / f"{part}.py", *sorted((package / inside / part).rglob("*.py")))
         if path.is_file()
     ]
-    return [
-        f"{path.relative_to(package).as_posix()} imports {name}"
-        for path in paths
-        for name in sorted(
-            imported(path.read_text(), path.relative_to(package).as_posix(), room)
-            & forbidden[path.relative_to(package / inside).with_suffix("").parts[0]]
-        )
-    ]
+    return [f"{path.relative_to(package).as_posix()} imports {name}" for path in paths
+            for name in sorted(imported(path.read_text(), path.relative_to(package).as_posix(),
+                                        room) & forbidden[path.relative_to(package / inside).with_suffix("").parts[0]])]
 
 
 def test_rooms():
@@ -140,11 +133,8 @@ def test_an_offence_of_the_plugin_is_found(tmp_path, line, name):
 
 def test_rooms_inside_study():
     assert offences(PACKAGE, FORBIDDEN_IN_STUDY, "timber_houses.study") == []
-    assert {
-        path.stem
-        for path in (PACKAGE / "study").iterdir()
-        if path.suffix == ".py" or (path / "__init__.py").exists()
-    } == {*STUDY, "__init__"}
+    assert {path.stem for path in (PACKAGE / "study").iterdir() if path.suffix == ".py"
+            or (path / "__init__.py").exists()} == {*STUDY, "__init__"}
 
 
 @pytest.mark.parametrize("line, part", [
@@ -172,30 +162,25 @@ def test_research_imports_the_package_and_never_the_reverse():
     assert all((ROOT / "research" / RESEARCH / name).is_file() for name in ("claims.py", "screening/cells.py"))
 
 
-@pytest.mark.parametrize("line", [
-    "import timber_research", "from timber_research.claims import STILL",
-    "def f():\n    from timber_research import design"
-])
+@pytest.mark.parametrize("line", ["import timber_research", "from timber_research.claims import STILL",
+                                  "def f():\n    from timber_research import design"])
 def test_an_import_of_research_is_found(tmp_path, line):
     (tmp_path / "scripts").mkdir()
     (tmp_path / "scripts" / "study.py").write_text(line + "\n")
     assert importers_of_research(tmp_path) == ["scripts/study.py"]
 
 
-@pytest.mark.parametrize(
-    "line, room",
-    [
-        ("import yade.wrapper as yw", "yade"),
-        ("from yade import O", "yade"),
-        ("from yade_timber.plugin import compiled", "yade"),
-        ("from yade_timber import energy_terms, box", "yade"),
-        ("from ..scene import engines", "scene"),
-        ("from ..run.options import RunOptions", "run"),
-        ("import timber_houses.study.driver", "study"),
-        ("from timber_houses import scene", "scene"),
-        ("def f():\n    from ..scene.bodies import box", "scene"),
-    ],
-)
+@pytest.mark.parametrize("line, room", [
+    ("import yade.wrapper as yw", "yade"),
+    ("from yade import O", "yade"),
+    ("from yade_timber.plugin import compiled", "yade"),
+    ("from yade_timber import energy_terms, box", "yade"),
+    ("from ..scene import engines", "scene"),
+    ("from ..run.options import RunOptions", "run"),
+    ("import timber_houses.study.driver", "study"),
+    ("from timber_houses import scene", "scene"),
+    ("def f():\n    from ..scene.bodies import box", "scene"),
+])
 def test_an_offence_is_found(tmp_path, line, room):
     for name in ("pictures", "recording"):
         (tmp_path / name).mkdir()

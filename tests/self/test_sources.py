@@ -62,9 +62,8 @@ def test_no_address_in_the_build():
 
 
 def test_licence_line():
-    code = [
-        path for path in sources() if path.suffix in {".py", ".cpp", ".hpp", ".cmake"} or path.name == "CMakeLists.txt"
-    ]
+    code = [path for path in sources() if path.suffix in {".py", ".cpp", ".hpp", ".cmake"} or path.name
+            == "CMakeLists.txt"]
     missing = [
         str(path.relative_to(ROOT))
         for path in code

@@ -223,11 +223,8 @@ def judged(name, watch, error, wall, terms):
 # --- sets -------------------------------------------------------------------------------------------------------------
 def scenes():
     """Shipped house and motion whose collapse fails with a rule of impacts that has no fixed point."""
-    return [
-        Case("tiled_house 1.5", "tiled_house", 1.5),
-        Case("tiled_house 2, seed 1", "tiled_house", 2.0, 1),
-        Case("tiled_house 2, seed 1, snow", "tiled_house", 2.0, 1, snow=1.0),
-    ]
+    return [Case("tiled_house 1.5", "tiled_house", 1.5), Case("tiled_house 2, seed 1", "tiled_house", 2.0, 1),
+            Case("tiled_house 2, seed 1, snow", "tiled_house", 2.0, 1, snow=1.0)]
 
 
 def frames(count=20, seed=49):

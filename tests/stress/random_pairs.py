@@ -295,16 +295,9 @@ def outcome(k, pair, energy, initial_momenta):
     states = [b.state for b in pair.bodies]
     finite = all(np.isfinite([*s.pos, *s.vel, *s.angVel]).all() for s in states)
     touched = any(s.vel != Vector3(*v) for s, v in zip(states, pair.velocity))
-    return Outcome(
-        pair.kind,
-        energy,
-        after / energy,
-        np.linalg.norm(linear) / scale if free else 0.0,
-        np.linalg.norm(angular) / (scale * arm) if free else 0.0,
-        touched,
-        max(s.vel.norm() for s in states),
-        finite,
-    )
+    return Outcome(pair.kind, energy, after / energy, np.linalg.norm(linear) / scale if free else 0.0,
+                   np.linalg.norm(angular) / (scale * arm) if free else 0.0, touched, max(s.vel.norm() for s in states),
+                   finite)
 
 
 def impacts(count, seed, batch=100, **options):
@@ -333,9 +326,6 @@ reaches. Observed: 1e-7.
 
 def expect_sound(found):
     """Raise AssertionError that lists outcomes that are not finite, gain energy or change the momentum."""
-    wrong = [
-        o
-        for o in found
-        if not (o.finite and o.gain <= 1 + ENERGY_BOUND and o.momentum <= MOMENTUM_BOUND and o.angular <= ANGULAR_BOUND)
-    ]
+    wrong = [o for o in found if not (o.finite and o.gain <= 1 + ENERGY_BOUND and o.momentum <= MOMENTUM_BOUND
+                                      and o.angular <= ANGULAR_BOUND)]
     assert not wrong, f"{len(wrong)} of {len(found)}:\n" + "\n".join(map(str, wrong[:10]))

@@ -5,14 +5,12 @@ another number), with new random numbers in each run.
 
 Printed are the numbers of examples used and refused, and the longest processor time of one example.
 """
-
 import os
 import time
 from collections import Counter
 
 import pytest
 from hypothesis import HealthCheck, given, settings
-
 from input_fuzz import KINDS
 
 EXAMPLES = int(os.environ.get("YADE_TIMBER_FUZZ", 10_000))

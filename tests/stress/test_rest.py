@@ -1,10 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """One minute at rest without skipped steps: house C and a stack of 20 blocks (section 6 of the accuracy page)."""
-import pathlib
-import sys
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "physics"))
-
 import yade_timber as yt
 from assembly_cases import DT, load_on_fixed, stack_at_rest, weight
 from planar_scene import advance, positions

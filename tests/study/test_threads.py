@@ -1,10 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """10 s on one and two threads (section 8 of the accuracy page)."""
-import pathlib
-import sys
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "physics"))
-
 from invariance_cases import one_thread_or_two
 from rows import check
 

@@ -97,9 +97,8 @@ def run(name="A", until=DURATION):
     broken = np.array([[4 if k == 0 else int(np.clip(20 * (t - FALL) - k, 0, 4)) for k in range(8)] for t in times])
     breaks = {"time": [FALL + 0.1], "joint": [1], "spring": [0], "cause": ["tension"], "force": [5900.0]}
     return frames.Frames(f"House {name}: earthquake", f"model{name}_quake", name, "0", start, joints(), times,
-                         np.array(position), np.array(orientation),
-                         np.clip(times / 3, 0, 1)[:, None] * np.ones(8), broken, motion=motion(), summary=summary(name),
-                         history=history(), breaks=breaks)
+                         np.array(position), np.array(orientation), np.clip(times / 3, 0, 1)[:, None] * np.ones(8),
+                         broken, motion=motion(), summary=summary(name), history=history(), breaks=breaks)
 
 
 def write(path, **options):

@@ -41,9 +41,8 @@ def test_runs_one_after_the_other_have_folders_of_their_own():
 
 def test_the_script_gives_the_same_result():
     """Bit for bit, also after another run in the session, and with the motion as an object."""
-    options = [
-        "--quake", "--scale", "2", "--duration", "0.3", "--dt", "2e-4", "--quiet", "--no-frames", "--out", "script"
-    ]
+    options = ["--quake", "--scale", "2", "--duration", "0.3", "--dt", "2e-4", "--quiet", "--no-frames", "--out",
+               "script"]
     subprocess.run(["yade", "-n", "-x", HOUSE_SCRIPT, "A", *options], check=True, capture_output=True,
                    stdin=subprocess.DEVNULL)
     th.run("B", **{**SHORT, "duration": 0.01})
@@ -61,23 +60,20 @@ def test_numbers_of_a_run():
     assert run.sentence in repr(run) and len(repr(run)) < 400
 
 
-@pytest.mark.parametrize(
-    "error, words, options",
-    [
-        (TypeError, "did you mean 'duration'", {"durration": 1}),
-        (TypeError, "motion 3: must be", {"motion": 3}),
-        (RunError, "no earthquake; give motion=", {"scale": 2}),
-        (RunError, "dt 1: must be between", {"dt": 1}),
-        (RunError, "a path must not be empty", {"out": ""}),
-        (RunError, "joint_damping 2: must be between 0 and 1", {"joint_damping": 2}),
-        (TypeError, "run: dt '1e-4': must be a number", {"dt": "1e-4"}),
-        (TypeError, "give motion='shipped'", {"quake": True}),
-        (ValueError, "no such file", {"motion": "nowhere"}),
-        (ValueError, "did you mean 'shipped'?", {"motion": "shiped"}),
-        (ValueError, "seed: a GroundMotion is given; leave one of them out",
-         {"motion": GroundMotion(0.01, np.ones((100, 3))), "seed": 3}),
-    ],
-)
+@pytest.mark.parametrize("error, words, options", [
+    (TypeError, "did you mean 'duration'", {"durration": 1}),
+    (TypeError, "motion 3: must be", {"motion": 3}),
+    (RunError, "no earthquake; give motion=", {"scale": 2}),
+    (RunError, "dt 1: must be between", {"dt": 1}),
+    (RunError, "a path must not be empty", {"out": ""}),
+    (RunError, "joint_damping 2: must be between 0 and 1", {"joint_damping": 2}),
+    (TypeError, "run: dt '1e-4': must be a number", {"dt": "1e-4"}),
+    (TypeError, "give motion='shipped'", {"quake": True}),
+    (ValueError, "no such file", {"motion": "nowhere"}),
+    (ValueError, "did you mean 'shipped'?", {"motion": "shiped"}),
+    (ValueError, "seed: a GroundMotion is given; leave one of them out",
+     {"motion": GroundMotion(0.01, np.ones((100, 3))), "seed": 3}),
+])
 def test_wrong_options_are_refused_in_a_line(error, words, options):
     with pytest.raises(error) as refusal:
         th.run("A", **options)

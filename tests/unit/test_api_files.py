@@ -5,20 +5,17 @@ import importlib
 import inspect
 import re
 import shutil
-import sys
 from pathlib import Path
 
 import pytest
-
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "py"))
-
 import timber_houses as th
 import yade_timber as yt
 import frames_sample
 from summaries import sample_summary
 from timber_houses.base.errors import InputError
 from timber_houses.house import build_house, load_house
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 def test_packages_are_called_and_still_packages():
@@ -67,24 +64,21 @@ def test_motions():
         300)  # the smaller of the horizontal peaks is 300 gal at level
 
 
-@pytest.mark.parametrize(
-    "call, words",
-    [
-        (lambda: th.house("D"), "unknown house 'D'"),
-        (lambda: th.house("c2"), "did you mean 'C2'?"),
-        (lambda: th.house(3), "unknown house '3'"),
-        (lambda: th.house("B").variant("/nowhere/x.yaml"), "cannot be written"),
-        (lambda: th.house("B").variant("x.yaml", settings=["snow=1=2"]), "snow"),
-        (lambda: th.house("B").draw("/nowhere/x.png"), "cannot be written"),
-        (lambda: th.motion("nowhere"), "no such file"),
-        (lambda: th.motion(scale=-1), "motion: scale -1"),
-        (lambda: th.motion(scale="2"), "motion: scale '2': must be a number"),
-        (lambda: th.motion(scales=2), "did you mean 'scale'"),
-        (lambda: th.motion(7), "motion 7: must be"),
-        (lambda: th.motion(th.motion(), seed=3), "leave one of them out"),
-        (lambda: th.load_run("/nowhere"), "no finished run"),
-    ],
-)
+@pytest.mark.parametrize("call, words", [
+    (lambda: th.house("D"), "unknown house 'D'"),
+    (lambda: th.house("c2"), "did you mean 'C2'?"),
+    (lambda: th.house(3), "unknown house '3'"),
+    (lambda: th.house("B").variant("/nowhere/x.yaml"), "cannot be written"),
+    (lambda: th.house("B").variant("x.yaml", settings=["snow=1=2"]), "snow"),
+    (lambda: th.house("B").draw("/nowhere/x.png"), "cannot be written"),
+    (lambda: th.motion("nowhere"), "no such file"),
+    (lambda: th.motion(scale=-1), "motion: scale -1"),
+    (lambda: th.motion(scale="2"), "motion: scale '2': must be a number"),
+    (lambda: th.motion(scales=2), "did you mean 'scale'"),
+    (lambda: th.motion(7), "motion 7: must be"),
+    (lambda: th.motion(th.motion(), seed=3), "leave one of them out"),
+    (lambda: th.load_run("/nowhere"), "no finished run"),
+])
 def test_refusals_are_one_line(call, words):
     with pytest.raises((InputError, TypeError)) as refusal:
         call()

@@ -3,7 +3,6 @@
 """scripts/study/batch.py with real runs: stopped, killed, resumed; tables and options with errors are refused before
 the first run.
 """
-
 import csv
 import os
 import shutil
@@ -14,9 +13,6 @@ import time
 from pathlib import Path
 
 import pytest
-
-sys.path.append(str(Path(__file__).resolve().parents[2] / "py"))
-
 from timber_houses.base.lock import LOCK, is_locked, locked
 from timber_houses.study.batch import read_table
 from timber_houses.study.driver import DRIVER
@@ -61,10 +57,8 @@ def wait_for(folder, pattern, process, condition):
 
 
 def children(process):
-    return [
-        int(pid)
-        for pid in subprocess.run(["pgrep", "-P", str(process.pid)], capture_output=True, text=True).stdout.split()
-    ]
+    return [int(pid) for pid in subprocess.run(["pgrep", "-P", str(process.pid)], capture_output=True,
+                                               text=True).stdout.split()]
 
 
 @pytest.mark.rare
@@ -112,16 +106,13 @@ def test_a_run_of_another_process_is_left_alone(folder, name):
     assert process.returncode == 1 and "another process" in output and {path.name for path in run.iterdir()} == {name}
 
 
-@pytest.mark.parametrize(
-    "table, place",
-    [
-        ("house scael\nB 1\n", "runs.txt:1: "),
-        ("house dt\nB 2e-4\nB 1\n", "runs.txt:3, column dt: "),
-        ("house\nB\nnope\n", "runs.txt:3: "),
-        ("house record\nB none\nB nowhere.csv\n", "runs.txt:3: "),
-        (None, "runs.txt: "),
-    ],
-)
+@pytest.mark.parametrize("table, place", [
+    ("house scael\nB 1\n", "runs.txt:1: "),
+    ("house dt\nB 2e-4\nB 1\n", "runs.txt:3, column dt: "),
+    ("house\nB\nnope\n", "runs.txt:3: "),
+    ("house record\nB none\nB nowhere.csv\n", "runs.txt:3: "),
+    (None, "runs.txt: "),
+])
 def test_tables_are_checked_before_the_first_run(folder, table, place):
     (folder / "runs.txt").write_text(table) if table else (folder / "runs.txt").unlink()
     process = start(folder)

@@ -3,7 +3,6 @@
 """Parameter tables with Snakemake, on the cores of this machine and on a real Slurm whose daemons the test starts and
 stops.
 """
-
 import csv
 import os
 import secrets
@@ -31,11 +30,8 @@ pytestmark = pytest.mark.skipif(
 
 
 def command(profile):
-    return [
-        "snakemake", "--snakefile",
-        str(WORKFLOW / "Snakefile"), "--profile",
-        str(WORKFLOW / profile), "--config", "table=runs.txt"
-    ]
+    return ["snakemake", "--snakefile", str(WORKFLOW / "Snakefile"), "--profile", str(WORKFLOW / profile), "--config",
+            "table=runs.txt"]
 
 
 def snakemake(folder, profile, **environment):
@@ -143,9 +139,8 @@ def slurm(tmp_path_factory):
     try:
         for start in starts:
             log = open(folder / f"{start[0]}.log", "w")
-            daemons.append(
-                subprocess.Popen(["setpriv", "--pdeathsig", "TERM", *start], stdin=subprocess.DEVNULL, stdout=log,
-                                 stderr=log))
+            daemons.append(subprocess.Popen(["setpriv", "--pdeathsig", "TERM", *start], stdin=subprocess.DEVNULL,
+                                            stdout=log, stderr=log))
         wait_for_node(conf, folder)
         yield conf
     finally:

@@ -1,17 +1,12 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Parameter tables: both formats, names of runs, refused tables, the table of results."""
-
 import csv
 import json
 import os
-import sys
 from pathlib import Path
 
 import pytest
-
-sys.path.append(str(Path(__file__).resolve().parents[2] / "py"))
-
 from summaries import sample_summary
 from timber_houses.base.errors import RunError
 from timber_houses.recording.events import Event, StructureFallen, Tilt
@@ -80,21 +75,18 @@ def test_names_follow_house_and_record(table, tmp_path):
     assert len({row.name for row in rows.values()}) == 3 and rows["a"].name == rows["d"].name
 
 
-@pytest.mark.parametrize(
-    "text, part",
-    [
-        ("", "empty"),
-        ("house scael\nB 1\n", "runs.txt:1: unknown column 'scael', did you mean 'scale'?"),
-        ("scale\n1\n", "no column 'house'"),
-        ("house scale scale\nB 1 1\n", "column 'scale' is given twice"),
-        ("house scale\nB\n", "runs.txt:2: 1 values for 2 columns"),
-        ("house scale\n= 1\n", "'=' repeats the line above"),
-        ("house scale\n* 1\n", "runs.txt:2, column house: every run needs a house"),
-        ("house scale\nB 1\nB 1\n", "runs.txt:3: the same run as in line 2"),
-        ("house;scale\nB;1\n", "runs.txt:1: "),
-        ("house,scale\nB,1,2\n", "runs.txt:2: 3 values for 2 columns"),
-    ],
-)
+@pytest.mark.parametrize("text, part", [
+    ("", "empty"),
+    ("house scael\nB 1\n", "runs.txt:1: unknown column 'scael', did you mean 'scale'?"),
+    ("scale\n1\n", "no column 'house'"),
+    ("house scale scale\nB 1 1\n", "column 'scale' is given twice"),
+    ("house scale\nB\n", "runs.txt:2: 1 values for 2 columns"),
+    ("house scale\n= 1\n", "'=' repeats the line above"),
+    ("house scale\n* 1\n", "runs.txt:2, column house: every run needs a house"),
+    ("house scale\nB 1\nB 1\n", "runs.txt:3: the same run as in line 2"),
+    ("house;scale\nB;1\n", "runs.txt:1: "),
+    ("house,scale\nB,1,2\n", "runs.txt:2: 3 values for 2 columns"),
+])
 def test_refused_tables(table, text, part):
     with pytest.raises(BatchError) as caught:
         table(text)
@@ -125,8 +117,7 @@ def test_comma_separated_values(table):
 def test_a_value_may_contain_a_number_sign(table, tmp_path):
     """A comment begins at the start of the line or after a blank, outside quotes."""
     rows = table('house,record,set # columns\nA,rec#1.csv,"a=b # c"  # first\n# none\n')
-    assert [row.cells for row in rows] == [{"house": "A", "record": str(tmp_path / "rec#1.csv"),
-                                        "set": "a=b # c"}]
+    assert [row.cells for row in rows] == [{"house": "A", "record": str(tmp_path / "rec#1.csv"), "set": "a=b # c"}]
 
 
 def test_records_are_named_as_on_the_command_line(table, tmp_path, monkeypatch):
@@ -149,10 +140,8 @@ def test_commas_are_answered_with_the_remedy(table, text, remedy):
         table(text)
 
 
-SUMMARY = {
-    "collapsed": True, "collapse_time_s": 21.5, "peak_drift": {"storey1": {"ns": 0.25, "ew": None}},
-    "broken": {"total": 7}
-}
+SUMMARY = {"collapsed": True, "collapse_time_s": 21.5, "peak_drift": {"storey1": {"ns": 0.25, "ew": None}},
+           "broken": {"total": 7}}
 
 
 def result(rows, folder, summary, errors=()):

@@ -1,13 +1,7 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Rows of a table as runs of scripts/house.py: options, house files, checks before the first run."""
-import sys
-from pathlib import Path
-
 import pytest
-
-sys.path.append(str(Path(__file__).resolve().parents[2] / "py"))
-
 from timber_houses.house import load_house
 from timber_houses.run.options import RunOptions
 from timber_houses.study.batch import BatchError, check_rows, read_table
@@ -50,25 +44,22 @@ def test_changed_houses_are_written(row, tmp_path):
     assert house["structures"]["main"]["braces"]["lines"][-1]["runs"] == [[3, 4]]
 
 
-@pytest.mark.parametrize(
-    "columns, values, parts",
-    [
-        ("house snow", "A 0.0005", ["runs.txt:2", "0.001", "6"]),
-        ("house snow", "A -1", ["runs.txt:2, column snow", "0", "6"]),
-        ("house joint_damping", "A 1.5", ["runs.txt:2, column joint_damping", "0", "1"]),
-        ("house dt", "A 1e-2", ["runs.txt:2, column dt"]),
-        ("house dt", "A nan", ["runs.txt:2, column dt"]),
-        ("house duration", "A nan", ["runs.txt:2, column duration"]),
-        ("house record scale", "A none 2", ["runs.txt:2, column scale"]),
-        ("house record", "A nowhere", ["runs.txt:2", "nowhere"]),
-        ("house pga", "A -3", ["runs.txt:2, column pga"]),
-        ("house walls", "A weak", ["runs.txt:2, column walls", "mean", "design"]),
-        ("house set", "A plumb.drft=1", ["runs.txt:2, column set", "plumb", "drft"]),
-        ("house braces", "A main.brace9.EW.y0.3-4", ["runs.txt:2"]),
-        ("house strength", "A 0", ["runs.txt:2, column strength"]),
-        ("house", "nowhere", ["runs.txt:2", "nowhere"]),
-    ],
-)
+@pytest.mark.parametrize("columns, values, parts", [
+    ("house snow", "A 0.0005", ["runs.txt:2", "0.001", "6"]),
+    ("house snow", "A -1", ["runs.txt:2, column snow", "0", "6"]),
+    ("house joint_damping", "A 1.5", ["runs.txt:2, column joint_damping", "0", "1"]),
+    ("house dt", "A 1e-2", ["runs.txt:2, column dt"]),
+    ("house dt", "A nan", ["runs.txt:2, column dt"]),
+    ("house duration", "A nan", ["runs.txt:2, column duration"]),
+    ("house record scale", "A none 2", ["runs.txt:2, column scale"]),
+    ("house record", "A nowhere", ["runs.txt:2", "nowhere"]),
+    ("house pga", "A -3", ["runs.txt:2, column pga"]),
+    ("house walls", "A weak", ["runs.txt:2, column walls", "mean", "design"]),
+    ("house set", "A plumb.drft=1", ["runs.txt:2, column set", "plumb", "drft"]),
+    ("house braces", "A main.brace9.EW.y0.3-4", ["runs.txt:2"]),
+    ("house strength", "A 0", ["runs.txt:2, column strength"]),
+    ("house", "nowhere", ["runs.txt:2", "nowhere"]),
+])
 def test_refused_rows(row, tmp_path, columns, values, parts):
     with pytest.raises(BatchError) as caught:
         check_rows([row(columns, values)], tmp_path)

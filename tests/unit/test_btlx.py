@@ -2,21 +2,17 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Frames from CAD: BTLx files -> parts, cuts, parts that fit, house files."""
 import subprocess
-import sys
 import warnings
 from pathlib import Path
 
 import numpy as np
 import pytest
-
-ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "py"), str(ROOT / "tests")]
-
 from btlx_sample import X, Y, Z, btlx, end_cut, part, portal, processing, project, side
 from timber_houses.house import HouseError, build_house, load_house
 from timber_houses.house.btlx.cuts import half_spaces, side_frame
 from timber_houses.house.btlx.reader import read_project
 
+ROOT = Path(__file__).resolve().parents[2]
 SIZE = (2000, 140, 80)
 SIDE_BY_SIDE = [(number, end) for number in (1, 2, 3, 4) for end in (-1, 1)]
 

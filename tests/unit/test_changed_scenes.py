@@ -105,20 +105,6 @@ def test_an_error_of_the_first_step_is_never_lost():
             O.run(1, True)
 
 
-def test_a_joint_ends_with_its_body():
-    """Also if another body gets the id before the next step. Joints of the new body hold."""
-    plate()
-    low, high = cube(0.1), cube(0.3)
-    O.dt, O.engines = 1e-4, yt.engines()
-    lost = yt.connect(low, high, corners(0.2), strength=math.inf)
-    O.run(100, True)
-    O.bodies.erase(high)
-    O.bodies.insertAtId(yt.box((SIDE, SIDE, SIDE), (1.5, 0, 0.1)), high)
-    kept = yt.connect(0, high, corners(0, 1.5))
-    O.run(100, True)
-    assert lost.isBroken and not kept.isBroken and O.bodies[high].state.vel.norm() < 0.1
-
-
 # --- energies ---------------------------------------------------------------------------------------------------------
 
 

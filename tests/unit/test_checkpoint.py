@@ -47,16 +47,13 @@ def test_another_option(name, option):
                                                        Path("x"))})) == ([name] if decides else [])
 
 
-@pytest.mark.parametrize(
-    "keys, change",
-    [
-        (["name"], {"name": "other"}),
-        (["content of files", "house"], {"house": "B"}),
-        (["ground_motion", "quake"], {"ground_motion": None}),
-        (["ground_motion"], {"ground_motion": replace(SHOVE, acceleration=2 * SHOVE.acceleration)}),
-        (["ground_motion"], {"ground_motion": replace(SHOVE, dt=0.02)}),
-    ],
-)
+@pytest.mark.parametrize("keys, change", [
+    (["name"], {"name": "other"}),
+    (["content of files", "house"], {"house": "B"}),
+    (["ground_motion", "quake"], {"ground_motion": None}),
+    (["ground_motion"], {"ground_motion": replace(SHOVE, acceleration=2 * SHOVE.acceleration)}),
+    (["ground_motion"], {"ground_motion": replace(SHOVE, dt=0.02)}),
+])
 def test_another_run(keys, change):
     assert differences(replace(RUN, **change)) == keys
 
@@ -96,27 +93,24 @@ def package(tmp_path_factory):
     return folder
 
 
-@pytest.mark.parametrize(
-    "name, decides",
-    [
-        ("base/colors.py", False),
-        ("pictures/raster.py", False),
-        ("pictures/player.py", False),
-        ("data/player/page.css", False),
-        ("study/driver.py", False),
-        ("text/english.py", False),
-        ("plugin/scene/engines.py", True),
-        ("plugin/energy_terms.py", True),
-        ("scene/scenario.py", True),
-        ("run/runner.py", True),
-        ("run/summary.py", True),
-        ("house/build.py", True),
-        ("motion/readers.py", True),
-        ("recording/drift.py", True),
-        ("base/time_step.py", True),
-        ("data/houses/base.yaml", True),
-    ],
-)
+@pytest.mark.parametrize("name, decides", [
+    ("base/colors.py", False),
+    ("pictures/raster.py", False),
+    ("pictures/player.py", False),
+    ("data/player/page.css", False),
+    ("study/driver.py", False),
+    ("text/english.py", False),
+    ("plugin/scene/engines.py", True),
+    ("plugin/energy_terms.py", True),
+    ("scene/scenario.py", True),
+    ("run/runner.py", True),
+    ("run/summary.py", True),
+    ("house/build.py", True),
+    ("motion/readers.py", True),
+    ("recording/drift.py", True),
+    ("base/time_step.py", True),
+    ("data/houses/base.yaml", True),
+])
 def test_files_that_decide_results(package, name, decides):
     """A changed file changes the fingerprint of the package if, and only if, it decides results."""
     folder = package / "plugin" if name.startswith("plugin") else package

@@ -3,17 +3,12 @@
 """Constant parts of records: a warning that names mean and remedy, from every reader; none for motions as recorded, nor
 after processing.
 """
-
 import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
-
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "py"))
-
 from summaries import sample_summary
 from timber_houses.motion import (
     GAL,
@@ -31,6 +26,7 @@ from timber_houses.recording.summary import LotResult
 from timber_houses.recording.town import summary as town_summary
 from timber_houses.text.english import record, sentence
 
+ROOT = Path(__file__).resolve().parents[2]
 TIME = np.arange(0, 20, 0.01)
 BURST = 300 * np.sin(3 * np.pi * TIME) * np.exp(-(((TIME - 5) / 2) ** 2))
 """A motion without a mean. [gal]"""
@@ -91,13 +87,10 @@ def test_every_reader_warns(tmp_path, write, offset, note):
     assert constant_note(motion) == note
 
 
-@pytest.mark.parametrize(
-    "processing, offset",
-    [
-        *(({"detrend": order}, offset) for order in (0, 1) for offset, _ in OFFSETS.values()),
-        ({"highpass": 0.1}, (60, 0, 0)),  # of gravity it leaves transients at both ends
-    ],
-)
+@pytest.mark.parametrize("processing, offset", [
+    *(({"detrend": order}, offset) for order in (0, 1) for offset, _ in OFFSETS.values()),
+    ({"highpass": 0.1}, (60, 0, 0)),  # of gravity it leaves transients at both ends
+])
 @pytest.mark.filterwarnings("error")
 def test_no_warning_where_it_is_removed(tmp_path, processing, offset):
     motion = MotionRequest(record=plain(tmp_path, WAVES + offset), **processing).motion(0.01)

@@ -47,19 +47,6 @@ def test_bitwise_equal_to_interaction_loop(begin):
     assert engines.find_engine(yw.ContactLoop).runs < O.iter / 4  # it runs with the collider
 
 
-def test_fixed_body_that_is_freed():
-    """Two fixed bodies have no contact. A body that is freed rests on the other."""
-    O.reset()
-    box(0.1, fixed=True)
-    upper = box(0.3, fixed=True)
-    start()
-    O.run(10, True)
-    O.bodies[upper].state.blockedDOFs = ""
-    O.run(500, True)
-    assert O.bodies[upper].state.pos[2] == pytest.approx(0.3, abs=1e-5)
-    assert len(yt.contacts(0, upper)) == 4
-
-
 def test_bodies_moved_by_hand_or_erased():
     """A distant body is placed on another, which is then erased."""
     O.reset()
@@ -109,18 +96,6 @@ def test_bounding_boxes_of_rotating_bodies():
     assert engines.find_engine(yw.CollisionTrigger).runs <= 4
 
 
-def test_interaction_erased_by_hand():
-    O.reset()
-    box(0.1, fixed=True)
-    upper = box(0.3 - 1e-6)
-    start()
-    O.run(5, True)
-    O.interactions.erase(0, upper)
-    assert not yt.contacts(0, upper)
-    O.step()
-    assert len(yt.contacts(0, upper)) == 4
-
-
 def test_other_shapes():
     """Two small spheres, whose boxes have no margin, collide beside a box on the ground: same result as with YADE's
     engines alone.
@@ -154,20 +129,6 @@ def test_other_shapes():
     assert run(True) == expected
     assert expected[2][0][0] < 2  # the spheres collided
     assert O.bodies[2].state.vel[0] == pytest.approx(-1, rel=1e-2)
-
-
-def test_body_that_reuses_an_id():
-    """A body is erased from a scene at rest, and a new one gets its id."""
-    O.reset()
-    box(0.1, fixed=True)
-    upper = box(0.3)
-    start()
-    O.run(200, True)
-    O.bodies.erase(upper)
-    O.run(200, True)
-    O.bodies.insertAtId(yt.box((0.4, 0.3, 0.2), (0, 0, 0.3), name="new"), upper)
-    O.run(500, True)
-    assert O.bodies[upper].shape.name == "new" and O.bodies[upper].state.pos[2] == pytest.approx(0.3, abs=1e-5)
 
 
 def test_patterns_and_shapes_that_change():
@@ -211,12 +172,6 @@ def test_without_an_interaction_loop():
         O.step()
 
 
-@pytest.mark.parametrize("margin", [-1e-3, 0, math.nan, math.inf])
-def test_margin_out_of_range(margin):
-    with pytest.raises(ValueError, match=r"Bo1_RoundedPolyhedron_Aabb.margin = .*: it must be finite and > 0"):
-        yw.Bo1_RoundedPolyhedron_Aabb(margin=margin)
-
-
 @pytest.mark.parametrize("radius", [-1e-3, math.nan, math.inf, 0.3])
 def test_refused_radius_keeps_the_geometry(radius):
     """0.3 m leaves no core. Mass properties and faces stay those of the last valid attributes."""
@@ -228,9 +183,7 @@ def test_refused_radius_keeps_the_geometry(radius):
 
 
 def test_hull_with_too_many_vertices():
-    points = [
-        Vector3(math.cos(0.1 * k) * math.sin(0.37 * k),
-                math.sin(0.1 * k) * math.sin(0.37 * k), math.cos(0.37 * k)) for k in range(2000)
-    ]
+    points = [Vector3(math.cos(0.1 * k) * math.sin(0.37 * k), math.sin(0.1 * k) * math.sin(0.37 * k),
+                      math.cos(0.37 * k)) for k in range(2000)]
     with pytest.raises(ValueError, match="at most 64 vertices, got 2000"):
         yt.polyhedron(points)

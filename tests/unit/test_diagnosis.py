@@ -1,17 +1,10 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Diagnosis of houses against sums by hand. Tolerances: results are rounded to three decimals."""
-
 import dataclasses
-import sys
 from functools import cache
-from pathlib import Path
 
 import pytest
-
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "py"))
-
 from summaries import sample_summary
 from timber_houses.house import build_house, comparison, diagnose, load_house
 from timber_houses.house.diagnosis import brace_multiplier, eccentricity_factor, is_balanced, judgement
@@ -117,9 +110,8 @@ def test_headline_is_the_weakest_of_all_structures():
 
 def run_of(iw, collapsed, peak_gal=None, snow=0.0, broken=0):
     record = peak_gal and {"pga_gal": {"ns": peak_gal, "ew": 1.0, "ud": 5000.0}}
-    diagnosis = {
-        "structures": {"main": {"storeys": {"1": {"directions": {"ns": {"iw": iw}}}}}}, "broken_from_start": broken
-    }
+    diagnosis = {"structures": {"main": {"storeys": {"1": {"directions": {"ns": {"iw": iw}}}}}},
+                 "broken_from_start": broken}
     return sample_summary(collapsed=collapsed, earthquake=bool(peak_gal), record=record, snow_depth_m=snow,
                           diagnosis=diagnosis)
 

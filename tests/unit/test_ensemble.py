@@ -3,10 +3,8 @@
 """Disturbance of a house; medians, ranges and shares of an ensemble; its files, sentences and picture."""
 import csv
 import io
-import sys
 from contextlib import ExitStack
 from dataclasses import replace
-from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -14,10 +12,6 @@ import pytest
 import small_frames
 from frames_sample import DURATION
 from frames_sample import run as sample
-
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.append(str(ROOT / "py"))
-
 from summaries import sample_summary
 from timber_houses.base.errors import RunError
 from timber_houses.house import build_house, load_house
@@ -38,10 +32,8 @@ from timber_houses.text.english import sentence
 def summary(verdict="unsafe", drift=0.1, falls=None, springs=3, **more):
     """Summary of a run with a largest drift [-]; falls: collapse time [s]"""
     drifts = {"storey1": {"ns": drift, "ew": drift / 2}, "storey2": {"ns": None, "ew": None}}
-    values = {
-        "verdict": verdict, "collapsed": falls is not None, "collapse_time_s": falls, "peak_drift": drifts,
-        "residual_drift": drifts
-    }
+    values = {"verdict": verdict, "collapsed": falls is not None, "collapse_time_s": falls, "peak_drift": drifts,
+              "residual_drift": drifts}
     return sample_summary(**{**values, "broken": {"total": 1, "springs": springs}, **more})
 
 
@@ -94,9 +86,8 @@ def test_joints_and_shapes_stay(houses):
 
 
 def test_spread_by_hand():
-    assert statistics.spread(
-        [4, 1, 3, 2,
-         10]) == {"runs": 5, "lowest": 1, "lower_quartile": 2, "median": 3, "upper_quartile": 4, "highest": 10}
+    assert statistics.spread([4, 1, 3, 2, 10]) == {"runs": 5, "lowest": 1, "lower_quartile": 2, "median": 3,
+                                                   "upper_quartile": 4, "highest": 10}
     assert statistics.spread([2])["median"] == 2
 
 
@@ -105,10 +96,8 @@ def test_numbers_and_words_of_a_summary():
     found = sample_summary(dt=1e-4, collapsed=True, energy={"input": 5}, versions={"yade": "x"},
                            peak_drift={"storey1": {"ns": 0.2, "ew": 0.1}})
     numbers, words = statistics.numbers(found), statistics.words(found)
-    expected = {
-        "largest_peak_drift": 0.2, "largest_residual_drift": 0.0, "dt": 1e-4, "energy.input": 5,
-        "peak_drift.storey1.ns": 0.2
-    }
+    expected = {"largest_peak_drift": 0.2, "largest_residual_drift": 0.0, "dt": 1e-4, "energy.input": 5,
+                "peak_drift.storey1.ns": 0.2}
     assert numbers.items() >= expected.items()
     assert words.items() >= {"collapsed": "true", "tilt_direction": "none", "verdict": "collapsed"}.items()
     assert not {"collapsed", "events", "tilt_direction"} & numbers.keys()
@@ -117,9 +106,8 @@ def test_numbers_and_words_of_a_summary():
 
 def test_spreads_count_the_runs_that_have_a_number():
     found = statistics.spreads([summary(falls=5.0), summary(falls=7.0), summary()])
-    assert found["collapse_time_s"] == {
-        "runs": 2, "lowest": 5.0, "lower_quartile": 5.5, "median": 6.0, "upper_quartile": 6.5, "highest": 7.0
-    }
+    assert found["collapse_time_s"] == {"runs": 2, "lowest": 5.0, "lower_quartile": 5.5, "median": 6.0,
+                                        "upper_quartile": 6.5, "highest": 7.0}
     assert found["largest_peak_drift"]["runs"] == 3
     assert statistics.counts([summary(falls=5.0), summary()])["collapsed"] == {"true": 1, "false": 1}
 
@@ -135,17 +123,14 @@ def test_outcomes_from_the_best_to_the_worst():
                                      summary("collapsed")]).items()) == [("unsafe", 1), ("collapsed", 2)]
 
 
-@pytest.mark.parametrize(
-    "found, number",
-    [
-        ([summary(drift=d) for d in (0.1, 0.3, 0.2)], 3),
-        ([summary(drift=0.125), summary(drift=0.375),
-          summary("collapsed", 9.0, 5.0)], 1),  # equally near to 0.25: the first
-        ([summary(), *(summary("collapsed", d, t)
-                       for d, t in ((9.0, 6.0), (8.0, 5.0), (7.0, 8.0)))], 2),  # by the collapse time
-        ([summary(drift=0.1), summary("collapsed", 9.0, 5.0)], 2),  # equally frequent: the worse
-    ],
-)
+@pytest.mark.parametrize("found, number", [
+    ([summary(drift=d) for d in (0.1, 0.3, 0.2)], 3),
+    ([summary(drift=0.125), summary(drift=0.375),
+      summary("collapsed", 9.0, 5.0)], 1),  # equally near to 0.25: the first
+    ([summary(), *(summary("collapsed", d, t)
+                   for d, t in ((9.0, 6.0), (8.0, 5.0), (7.0, 8.0)))], 2),  # by the collapse time
+    ([summary(drift=0.1), summary("collapsed", 9.0, 5.0)], 2),  # equally frequent: the worse
+])
 def test_the_run_that_is_shown(found, number):
     assert statistics.representative(dict(enumerate(found, 1))) == number
 
@@ -247,9 +232,8 @@ def test_failed_runs_are_counted_and_end_in_an_error(finished, monkeypatch):
 def test_lines_for_the_terminal(finished):
     _, _, found = finished
     lines = results.lines(results.content(found, {}), found[1])
-    assert lines[1:3] == [
-        "unsafe: 2 runs, 67 % (95 % confidence: 9 to 99 %)", "collapsed: 1 run, 33 % (95 % confidence: 1 to 91 %)"
-    ]
+    assert lines[1:3] == ["unsafe: 2 runs, 67 % (95 % confidence: 9 to 99 %)",
+                          "collapsed: 1 run, 33 % (95 % confidence: 1 to 91 %)"]
     assert [line.split() for line in lines if line.startswith("collapse [s]")] == [[
         "collapse", "[s]", "2.9", "2.9", "in", "1", "run"
     ]]

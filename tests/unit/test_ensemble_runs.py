@@ -6,15 +6,11 @@ import os
 import shutil
 import signal
 import subprocess
-import sys
 import time
 from pathlib import Path
 
 import numpy as np
 import pytest
-
-sys.path.append(str(Path(__file__).resolve().parents[2] / "py"))
-
 from timber_houses.base.lock import is_locked
 from timber_houses.recording.ensemble import histories, read
 

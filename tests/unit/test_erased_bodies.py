@@ -118,7 +118,7 @@ def test_the_middle_of_a_column(saved, tmp_path):
 
 @pytest.mark.parametrize("saved", [False, True])
 def test_joints_of_an_erased_body(saved, tmp_path):
-    """Another body that gets the id is not joined."""
+    """Another body that gets the id is not joined, and its own joints hold."""
     plate()
     low, high = cube(), cube(0, 1.5 * SIDE)
     start()
@@ -127,9 +127,11 @@ def test_joints_of_an_erased_body(saved, tmp_path):
     O.bodies.erase(high)
     assert find_engine(yw.JointEngine).joints[0].isBroken
     O.bodies.insertAtId(yt.box((SIDE, SIDE, SIDE), (1, 0, SIDE / 2)), high)
+    yt.connect(0, high, [(1, 0, 0)])
     if saved:
         reload(tmp_path)
     O.run(100, True)
+    assert [joint.isBroken for joint in find_engine(yw.JointEngine).joints] == [True, False]
     assert O.bodies[high].state.vel.norm() < 1e-3
 
 

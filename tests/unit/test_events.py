@@ -171,66 +171,63 @@ def drifts(peak, residual):
     }
 
 
-@pytest.mark.parametrize(
-    "changes, expected, absent",
-    [
-        ({}, [
-            "House B is undamaged: ", "peak storey drift 1/500 E-W in storey 1, below the damage limit of 1/120",
-            "0 of 206"
-        ], ["residual", "leans"]),
-        ({**drifts(0.12, 0.0004), "tilt_time_s": 19.4, "tilt_direction": "ew"},
-         ["is unsafe: ", "1/8 E-W", "beyond the tilt of 1/10", "residual drift below 1/1000;"], ["leans", "undamaged"]),
-        (drifts(1 / 13, 0.01), ["is unsafe: ", "1/13", "beyond the safety limit of 1/30", "residual drift 1/100"
-                                ], ["leans"]),
-        (drifts(1 / 80, 0.0), ["is repairable: ", "beyond the damage limit of 1/120"], ["unsafe"]),
-        (drifts(0.3, 0.25), ["is a total loss and leans at the end", "1/3 E-W",
-                            "residual drift 1/4 E-W beyond the limit of a total loss of 1/20"], []),
-        ({"broken": {"partly_broken": 2}}, ["is repairable: ", "below the damage limit", "2 partly"], []),
-        ({"columns": {"total": 90, "fallen": 1}, "events": [Event(20.5, ColumnsLost(1, 90))]
-          }, ["is unsafe: ", "1 fallen of 90 columns, the first at 20.5 s"], []),
-        ({
-            "collapsed": True, "collapse_time_s": 25.0, "tilt_time_s": 22.7, "tilt_direction": "ns",
-            "broken": {"total": 5, "partly_broken": 79}, "columns": {"total": 90, "fallen": 42, "loose": 3}
-        }, [
-            "House B collapsed at 25.0 s", "1/10 N-S at 22.7 s", "5 of 206 joints broken, 79 partly",
-            "42 fallen and 3 loose of 90 columns"
-        ], ["unsafe"]),
-        ({"still_moving": True, "final_amplitude": {"storey1": {"ns": 0.004, "ew": 0.01}}
-          }, ["still moving by ±1/100 E-W"], []),
-        ({
-            "structures": {
-                "main": SOUND, "carport": {**SOUND, "collapsed": True}, "shed": SOUND,
-                "entrance": {**SOUND, "peak_drift": 0.3, "residual_drift": 0.2}
-            }, "events": [Event(21.35, StructureFallen("carport"))]
-        }, ["is undamaged", "carport collapsed at 21.4 s, entrance total loss and leans (peak drift 1/3)"], ["shed"]),
-        ({
-            "structures": {
-                "main": SOUND, "porch": {**SOUND, "collapsed": True}, "porch2": {**SOUND, "collapsed": True}
-            }, "events": [Event(3.0, StructureFallen("porch2")),
-                          Event(9.0, StructureFallen("porch"))]
-        }, ["porch collapsed at 9.0 s, porch2 collapsed at 3.0 s"], []),
-        ({"snow": True, "snow_mass_kg": 5600.0, "events": [Event(20.2, SnowFallen("", "west", "roof"))]
-          }, ["snow 5.6 t, falling from 20.2 s"], []),
-        ({"record": {"onset_s": 18.8, "strong_end_s": 27.0}, "duration_s": 2.0},
-         ["before strong shaking sets in (18.8 s)"], ["during"]),
-        ({"record": {"onset_s": 18.8, "strong_end_s": 27.0}, "duration_s": 20.0},
-         ["the run ends during the strong shaking (18.8 to 27.0 s)"], ["before strong"]),
-        ({**drifts(0.3, 0.25), "record": {"onset_s": 18.8, "strong_end_s": 27.0}, "duration_s": 20.0},
-         ["is unsafe: ", "drift at the end 1/4 E-W;"], ["total loss", "leans", "residual"]),
-        ({**drifts(0.3, 0.06), "still_moving": True, "final_amplitude": {"storey1": {"ns": 0.07, "ew": 0.0}}},
-         ["is unsafe: ", "drift at the end 1/17 E-W, still moving by ±1/14 N-S"], ["total loss", "residual"]),
-        ({**drifts(0.3, 0.06), "still_moving": True, "final_amplitude": {"storey1": {"ns": 0.02, "ew": 0.0}}},
-         ["is a total loss: ", "residual drift 1/17 E-W beyond the limit of a total loss of 1/20, still"],
-         ["at the end"]),
-        ({"record": {"onset_s": 18.8, "strong_end_s": 27.0}, "duration_s": 27.0}, [], ["strong shaking"]),
-        ({"record": {"onset_s": 18.8, "strong_end_s": 27.0}, "duration_s": 20.0, "collapsed": True,
-          "collapse_time_s": 19.5}, ["collapsed"], ["strong shaking"]),
-        (drifts(0.00831, 0.0), ["1/121", "below the damage limit of 1/120"], []),
-        (drifts(0.0329, 0.0), ["1/31", "beyond the damage limit of 1/120"], []),
-        (drifts(0.0953, 0.0), ["1/11", "beyond the safety limit of 1/30"], []),
-        (drifts(1 / 120, 0.0), ["1/120 ", "beyond the damage limit"], []),
-    ],
-)
+@pytest.mark.parametrize("changes, expected, absent", [
+    ({}, [
+        "House B is undamaged: ", "peak storey drift 1/500 E-W in storey 1, below the damage limit of 1/120",
+        "0 of 206"
+    ], ["residual", "leans"]),
+    ({**drifts(0.12, 0.0004), "tilt_time_s": 19.4, "tilt_direction": "ew"},
+     ["is unsafe: ", "1/8 E-W", "beyond the tilt of 1/10", "residual drift below 1/1000;"], ["leans", "undamaged"]),
+    (drifts(1 / 13, 0.01), ["is unsafe: ", "1/13", "beyond the safety limit of 1/30", "residual drift 1/100"
+                            ], ["leans"]),
+    (drifts(1 / 80, 0.0), ["is repairable: ", "beyond the damage limit of 1/120"], ["unsafe"]),
+    (drifts(0.3, 0.25), ["is a total loss and leans at the end", "1/3 E-W",
+                        "residual drift 1/4 E-W beyond the limit of a total loss of 1/20"], []),
+    ({"broken": {"partly_broken": 2}}, ["is repairable: ", "below the damage limit", "2 partly"], []),
+    ({"columns": {"total": 90, "fallen": 1}, "events": [Event(20.5, ColumnsLost(1, 90))]
+      }, ["is unsafe: ", "1 fallen of 90 columns, the first at 20.5 s"], []),
+    ({
+        "collapsed": True, "collapse_time_s": 25.0, "tilt_time_s": 22.7, "tilt_direction": "ns",
+        "broken": {"total": 5, "partly_broken": 79}, "columns": {"total": 90, "fallen": 42, "loose": 3}
+    }, [
+        "House B collapsed at 25.0 s", "1/10 N-S at 22.7 s", "5 of 206 joints broken, 79 partly",
+        "42 fallen and 3 loose of 90 columns"
+    ], ["unsafe"]),
+    ({"still_moving": True, "final_amplitude": {"storey1": {"ns": 0.004, "ew": 0.01}}
+      }, ["still moving by ±1/100 E-W"], []),
+    ({
+        "structures": {
+            "main": SOUND, "carport": {**SOUND, "collapsed": True}, "shed": SOUND,
+            "entrance": {**SOUND, "peak_drift": 0.3, "residual_drift": 0.2}
+        }, "events": [Event(21.35, StructureFallen("carport"))]
+    }, ["is undamaged", "carport collapsed at 21.4 s, entrance total loss and leans (peak drift 1/3)"], ["shed"]),
+    ({
+        "structures": {
+            "main": SOUND, "porch": {**SOUND, "collapsed": True}, "porch2": {**SOUND, "collapsed": True}
+        }, "events": [Event(3.0, StructureFallen("porch2")),
+                      Event(9.0, StructureFallen("porch"))]
+    }, ["porch collapsed at 9.0 s, porch2 collapsed at 3.0 s"], []),
+    ({"snow": True, "snow_mass_kg": 5600.0, "events": [Event(20.2, SnowFallen("", "west", "roof"))]
+      }, ["snow 5.6 t, falling from 20.2 s"], []),
+    ({"record": {"onset_s": 18.8, "strong_end_s": 27.0}, "duration_s": 2.0},
+     ["before strong shaking sets in (18.8 s)"], ["during"]),
+    ({"record": {"onset_s": 18.8, "strong_end_s": 27.0}, "duration_s": 20.0},
+     ["the run ends during the strong shaking (18.8 to 27.0 s)"], ["before strong"]),
+    ({**drifts(0.3, 0.25), "record": {"onset_s": 18.8, "strong_end_s": 27.0}, "duration_s": 20.0},
+     ["is unsafe: ", "drift at the end 1/4 E-W;"], ["total loss", "leans", "residual"]),
+    ({**drifts(0.3, 0.06), "still_moving": True, "final_amplitude": {"storey1": {"ns": 0.07, "ew": 0.0}}},
+     ["is unsafe: ", "drift at the end 1/17 E-W, still moving by ±1/14 N-S"], ["total loss", "residual"]),
+    ({**drifts(0.3, 0.06), "still_moving": True, "final_amplitude": {"storey1": {"ns": 0.02, "ew": 0.0}}},
+     ["is a total loss: ", "residual drift 1/17 E-W beyond the limit of a total loss of 1/20, still"],
+     ["at the end"]),
+    ({"record": {"onset_s": 18.8, "strong_end_s": 27.0}, "duration_s": 27.0}, [], ["strong shaking"]),
+    ({"record": {"onset_s": 18.8, "strong_end_s": 27.0}, "duration_s": 20.0, "collapsed": True,
+      "collapse_time_s": 19.5}, ["collapsed"], ["strong shaking"]),
+    (drifts(0.00831, 0.0), ["1/121", "below the damage limit of 1/120"], []),
+    (drifts(0.0329, 0.0), ["1/31", "beyond the damage limit of 1/120"], []),
+    (drifts(0.0953, 0.0), ["1/11", "beyond the safety limit of 1/30"], []),
+    (drifts(1 / 120, 0.0), ["1/120 ", "beyond the damage limit"], []),
+])
 def test_sentence(changes, expected, absent):
     """Peak and residual drift are told apart, partly broken joints are counted."""
     text = sentence(sample_summary(**{**STANDING, **changes}))
@@ -297,10 +294,8 @@ def test_damage_by_structure():
     time, state = states(run)[0]
     found = survey(run).by_structure(State(state.position, state.orientation, broken),
                                      {"main": replace(Judged.of(1), peak=[0.0, 0.1]), "carport": Judged.of(1)})
-    assert found == {
-        "main": Structure(peak_drift=0.1, broken=1, partly_broken=1, columns_lost=1), "carport": Structure(
-            peak_drift=0.0, broken=1)
-    }
+    assert found == {"main": Structure(peak_drift=0.1, broken=1, partly_broken=1, columns_lost=1),
+                     "carport": Structure(peak_drift=0.0, broken=1)}
 
 
 def test_a_summary_is_the_same_after_a_file(tmp_path):

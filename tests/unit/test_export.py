@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The scene as JSON for other solvers: every field of it in closed form."""
-
 import json
 
 import numpy as np
@@ -167,12 +166,8 @@ def test_names_of_materials(tmp_path):
     """
     O.reset()
     waxed = {**OAK, "friction": 0.25}
-    for k, material in enumerate(
-        [timber(OAK, "wood"),
-         timber(OAK, "beam"),
-         timber(waxed, "wood"),
-         yt.timber(),
-         yt.snow(80.0, 3e4, 0.2)]):
+    for k, material in enumerate([timber(OAK, "wood"), timber(OAK, "beam"), timber(waxed, "wood"), yt.timber(),
+                                  yt.snow(80.0, 3e4, 0.2)]):
         O.bodies.append(yt.box((1, 1, 1), (2 * k, 0, 0), material=material))
     content = written(tmp_path)
     assert [element["material"] for element in content["elements"]] == ["wood", "wood", "wood'", "timber", "snow"]

@@ -114,9 +114,8 @@ def test_standard_output(tmp_path, path):
     with open(tmp_path / "log", "w") as log:
         subprocess.run([sys.executable, "-c", script], stdout=log, check=True)
     assert (tmp_path / "log").read_text() == "before\nx\nafter\n"
-    assert subprocess.run(
-        [sys.executable, "-c", script.replace(str(tmp_path / "log"), "/dev/stdout")],
-        stdout=subprocess.PIPE).stdout == b"before\nx\nafter\n"
+    assert subprocess.run([sys.executable, "-c", script.replace(str(tmp_path / "log"), "/dev/stdout")],
+                          stdout=subprocess.PIPE).stdout == b"before\nx\nafter\n"
 
 
 def test_folders_are_made_in_folders_only(tmp_path):

@@ -53,7 +53,7 @@ def seen(view, point, size):
 
 @pytest.mark.parametrize("name", list(camera.CAMERAS))
 def test_the_whole_house_is_in_the_picture(name):
-    points = film.corners(frames_sample.run())
+    points = stage.corners(frames_sample.run())
     view = camera.look(name, points, 16 / 9)
     clip = np.c_[points, np.ones(len(points))] @ view.matrix.T
     across, up = clip[:, 0] / clip[:, 3], clip[:, 1] / clip[:, 3]
@@ -65,7 +65,7 @@ def test_the_roof_is_where_it_should_be_and_throws_a_shadow():
     """The middle of the roof has the roof's dark grey. The ground is darker where a ray to the sun meets the roof."""
     run, size = frames_sample.run(), (640, 360)
     run.motion = None
-    points = film.corners(run)
+    points = stage.corners(run)
     view, (matrix, light) = camera.look("space", points, size[0] / size[1]), camera.sun(points)
     picture = np.asarray(stage.Stage(run, size, view, (matrix, light)).picture(0.0)).astype(int)
     e = run.elements
@@ -83,7 +83,7 @@ def test_the_ground_moves():
     """The picture is displaced to the right by a displacement to the north, seen from the east."""
     run, size = frames_sample.run(), (320, 180)
     run.motion.displacement[:] = (0.0, 1.0, 0.0)
-    points = film.corners(run)
+    points = stage.corners(run)
     view = camera.look("front", points, size[0] / size[1])
     moved = np.array(stage.Stage(run, size, view, camera.sun(points)).picture(0.5))
     run.motion.displacement[:] = 0.0
@@ -100,10 +100,8 @@ def test_a_house_fills_at_least_half_of_the_height(size):
     stage = film.Pictures([frames_sample.run()] * 2, "space", film.Format(*size)).stages[0]
     points = np.concatenate(
         [element.vertices for element in build_house(load_house("A")).elements if element.kind != "ground"])
-    rows = [
-        seen(camera.look("space", points, stage.canvas.size[0] / stage.canvas.size[1]), point, stage.canvas.size)[0]
-        for point in points
-    ]
+    rows = [seen(camera.look("space", points, stage.canvas.size[0] / stage.canvas.size[1]), point, stage.canvas.size)[0]
+            for point in points]
     assert 0 < min(rows) and max(rows) < stage.canvas.size[1] and max(rows) - min(rows) > size[1] / 2
 
 
@@ -164,11 +162,8 @@ def test_mp4_of_two_runs_at_a_quarter_of_the_speed(tmp_path):
     runs = [frames_sample.run(name="A"), frames_sample.run(name="B", until=3.0)]
     form = film.Format(width=320, height=180, rate=10, speed=0.25)
     assert film.write(tmp_path / "x.mp4", runs, "space", form, 2.5, 3.0) == 20
-    words = [
-        "ffprobe", "-v", "error", "-count_frames", "-show_entries", "stream=width,height,nb_read_frames", "-of",
-        "csv=p=0",
-        str(tmp_path / "x.mp4")
-    ]
+    words = ["ffprobe", "-v", "error", "-count_frames", "-show_entries", "stream=width,height,nb_read_frames", "-of",
+             "csv=p=0", str(tmp_path / "x.mp4")]
     assert subprocess.run(words, capture_output=True, text=True).stdout.strip() == "320,180,40"
 
 

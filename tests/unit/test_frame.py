@@ -4,16 +4,10 @@
 damage; messages with file, line, member and remedy.
 """
 import re
-import sys
 import warnings
-from pathlib import Path
 
 import numpy as np
 import pytest
-
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "py"))
-
 from timber_houses.base.gravity import weight_of
 from timber_houses.house import HouseError, build_house, changed_house, diagnose, load_house, weigh
 from timber_houses.house.missing_joints import warn_of_missing_joints

@@ -47,11 +47,9 @@ def test_repr_is_short(history):
     assert len(repr(history)) < 80
 
 
-@pytest.mark.parametrize(
-    "content, place",
-    [("", "history.csv: "), ("time [s],a\n0,1\n0,word\n", "history.csv:3: "), ("time [s],a\n0\n", "history.csv:2: "),
-     ("a,b\n0,1\n", "history.csv:1: "), (b"\xff\xfe", "history.csv: ")],
-)
+@pytest.mark.parametrize("content, place", [("", "history.csv: "), ("time [s],a\n0,1\n0,word\n", "history.csv:3: "),
+                                            ("time [s],a\n0\n", "history.csv:2: "), ("a,b\n0,1\n", "history.csv:1: "),
+                                            (b"\xff\xfe", "history.csv: ")])
 def test_damaged_files(tmp_path, content, place):
     path = tmp_path / "history.csv"
     path.write_bytes(content if isinstance(content, bytes) else content.encode())

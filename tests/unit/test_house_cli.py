@@ -47,22 +47,19 @@ def test_a_shipped_house_by_name():
     assert (scenario.name, scenario.snow_depth, str(options.folder)) == ("l_house", 1.5, "results/l_house")
 
 
-@pytest.mark.parametrize(
-    "words, said",
-    [
-        ([], "required: HOUSE"),
-        (["nowhere.yaml"], "house 'nowhere.yaml'"),
-        (["."], "house '.'"),
-        (["C2", "D"], "unrecognized arguments: D"),
-        (["C2", "--snow"], "--snow: expected one argument"),
-        (["C2", "--snow", "deep"], "--snow 'deep': must be a number"),
-        (["C2", "--snow", "-1"], "--snow -1: must be between 0 and 6"),
-        (["C2", "--snow", "nan"], "--snow nan: must be between 0 and 6"),
-        (["C2", "--snow", "0.0005"], "snow depth: must be 0 or in [0.001, 6] m, got 0.0005"),
-        (["c2"], "did you mean 'C2'?"),
-        (["C2", "--scale", "2"], "add --quake or --record FILE"),
-    ],
-)
+@pytest.mark.parametrize("words, said", [
+    ([], "required: HOUSE"),
+    (["nowhere.yaml"], "house 'nowhere.yaml'"),
+    (["."], "house '.'"),
+    (["C2", "D"], "unrecognized arguments: D"),
+    (["C2", "--snow"], "--snow: expected one argument"),
+    (["C2", "--snow", "deep"], "--snow 'deep': must be a number"),
+    (["C2", "--snow", "-1"], "--snow -1: must be between 0 and 6"),
+    (["C2", "--snow", "nan"], "--snow nan: must be between 0 and 6"),
+    (["C2", "--snow", "0.0005"], "snow depth: must be 0 or in [0.001, 6] m, got 0.0005"),
+    (["c2"], "did you mean 'C2'?"),
+    (["C2", "--scale", "2"], "add --quake or --record FILE"),
+])
 def test_bad_command_lines(words, said, capsys, tmp_path):
     with pytest.raises(SystemExit) as stop:
         main_house(["scripts/house.py", *words, "--out", str(tmp_path)])

@@ -1,15 +1,7 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Connections of house files: named rules, number and share of fittings, own strength, torn plates, damping."""
-
-import sys
-from pathlib import Path
-
 import pytest
-
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "py"))
-
 from timber_houses.house import build_house, load_house
 
 PLATES = """

@@ -3,17 +3,10 @@
 """House files with common mistakes and hostile content: file, line and member of the message; limits; a small house of
 its own.
 """
-
 import os
-import sys
 import time
-from pathlib import Path
 
 import pytest
-
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "py"))
-
 from timber_houses.house import HouseError, build_house, limits, load_house
 from timber_houses.house.loader import SHIPPED
 from timber_houses.house.parser import parse_table

@@ -1,18 +1,11 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Convex polyhedra of the house builder against closed forms."""
-
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
-
 from timber_houses.house.geometry import (Polyhedron, box, clip_convex, contact_polygon, halfspace_vertices,
                                           polygon_area, separation)
 from timber_houses.house.joints import spring_points

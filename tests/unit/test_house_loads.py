@@ -1,15 +1,7 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Loads of a house and its weight by storey, against sums by hand."""
-
-import sys
-from pathlib import Path
-
 import pytest
-
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "py"))
-
 from timber_houses.house import HouseError, build_house, load_house, weigh
 from timber_houses.house.weight import sentence
 

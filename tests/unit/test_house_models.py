@@ -1,7 +1,6 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The paper's houses: counts, sizes, masses, joints, damage, symmetry, overlaps."""
-
 import json
 import subprocess
 import sys
@@ -12,13 +11,10 @@ import in_process
 import numpy as np
 import pytest
 from scipy.integrate import quad
-
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "py"))
-
 from timber_houses.base.joint_kinds import WALL_KINDS
 from timber_houses.house import build_house, check_house, load_house, overlaps, shipped_houses
 
+ROOT = Path(__file__).resolve().parents[2]
 HOUSES = ["A", "B", "C", "B1", "B2", "C1", "C2"]
 EXAMPLES = ["storehouse", "l_house", "tiled_house", "barn", "bell_tower"]
 WIDTH, DEPTH, RUN, RISE, CUT, SLAB = 8.34, 7.43, 3.715, 1.30, 0.20, 0.12  # hip roof [m]

@@ -1,18 +1,11 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Other houses than the paper's: gable roofs, eaves, pyramids, areas, wings, `extends`; small and large."""
-
-import sys
 import time
 import warnings
-from pathlib import Path
 
 import numpy as np
 import pytest
-
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "py"))
-
 from timber_houses.house import HouseError, build_house, changed_house, check_house, load_house
 
 SHED = """\
@@ -76,10 +69,8 @@ def test_a_brace_needs_a_joint_on_the_level_member(tmp_path):
 
 def test_joints_between_the_sides_of_columns_are_no_feet(tmp_path):
     """Wings of the L-shaped house: their columns are joined side by side, at half height."""
-    joints = [
-        joint for joint in house(tmp_path, "extends: l_house\nname: own\n").joints
-        if joint.kind == "wing_wing" and "column" in joint.a
-    ]
+    joints = [joint for joint in house(tmp_path, "extends: l_house\nname: own\n").joints if joint.kind == "wing_wing"
+              and "column" in joint.a]
     assert joints and {joint.end for joint in joints} == {""}
 
 
@@ -173,10 +164,9 @@ def test_hip_roof_on_a_square_is_a_pyramid(tmp_path):
     assert model.counts()["joints_by_kind"]["roof_roof"] == 4  # the hips; there is no ridge
 
 
-@pytest.mark.parametrize("roof", [
-    "type: flat, thickness: 0.1", "type: gable, pitch: 1.2, thickness: 0.1",
-    "type: hip, pitch: 0.3, thickness: 0.05, corner_cut: 0.1", "type: mono, falls: west, pitch: 0.5, thickness: 0.1"
-])
+@pytest.mark.parametrize("roof", ["type: flat, thickness: 0.1", "type: gable, pitch: 1.2, thickness: 0.1",
+                                  "type: hip, pitch: 0.3, thickness: 0.05, corner_cut: 0.1",
+                                  "type: mono, falls: west, pitch: 0.5, thickness: 0.1"])
 def test_one_module_is_a_house(tmp_path, roof):
     model = shed(tmp_path, roof, nx=1, ny=1, snow=2.0)
     assert len(model.of_kind("column")) == 4 and check_house(model)["deepest"] < 1e-9
@@ -199,10 +189,8 @@ def test_wings_of_the_l_house_are_joined():
     between = [j for j in model.joints if model.element(j.a).group != model.element(j.b).group]
     assert {j.kind for j in between} == {"wing_wing"}
     assert sorted(model.element(j.a).kind for j in between) == ["beam"] * 2 + ["column"] * 10 + ["floor"]
-    lows = {
-        group: min(e.solid.bounds[0][1] for e in model.elements if e.group == group and e.kind == "beam")
-        for group in ("main", "side")
-    }
+    lows = {group: min(e.solid.bounds[0][1] for e in model.elements if e.group == group and e.kind == "beam")
+            for group in ("main", "side")}
     assert lows["main"] == pytest.approx(lows["side"])
     normals = np.array([j.normal for j in between])
     assert np.abs(normals[:, 0]) == pytest.approx(1)

@@ -1,16 +1,10 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Plans of any shape in one structure: area, outer walls, their weight, quarters, corners; wings of two structures."""
-
-import sys
 from functools import cache
 from pathlib import Path
 
 import pytest
-
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "py"))
-
 from timber_houses.base.gravity import weight_of
 from timber_houses.house import build_house, diagnose, load_house, weigh
 

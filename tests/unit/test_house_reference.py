@@ -1,20 +1,15 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
 """docs/house_files.md documents exactly the keys of the schema, with their ranges and defaults."""
-
 import re
-import sys
 from pathlib import Path
 
 import pytest
-
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "py"))
-
 from timber_houses.house.layout import HOUSE
 from timber_houses.house.schema import (REQUIRED, Choice, Either, Flag, ListOf, MapOf, Number, Pair, Record, Text,
                                         Variants)
 
+ROOT = Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs" / "house_files.md"
 HEADING = re.compile(r"^#+ .*`([^`]*)`$")
 ROW = re.compile(r"^\| `(?:([\w.\[\]]+)\.)?(\w+)` \| (.*?) \| (.*?) \| (.+) \|$")

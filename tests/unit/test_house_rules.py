@@ -5,7 +5,6 @@ Needs no YADE.
 """
 import numpy as np
 import pytest
-
 from timber_houses.house import HouseError, build_house, diagnose, load_house, weigh
 from timber_houses.house.weight import sentence
 
@@ -89,17 +88,14 @@ def test_weight_of_all_structures():
     assert len(weights["storeys"]) == 2 and f"storey 1 {total:.0f} kN" in sentence(weights)
 
 
-@pytest.mark.parametrize(
-    "changes, words",
-    [
-        ("damage: {regions: [{side: south, storey: 1}]}", "give column_beam or brace_beam"),
-        ("wall_types: {window: {multiplier: 2}}", "wall_types.window: the name of an opening"),
-        ("structures: {main: {walls: [{along: x, at: 0, from: 2, to: 4, type: []}]}}",
-         "walls[1].type: a list of 0 items"),
-        ("structures: {main: {place: {gap: 3}}}", "place.gap: belongs to 'beside'"),
-        ("structures: {main: {place: {align: north}}}", "place.align: belongs to 'beside'"),
-    ],
-)
+@pytest.mark.parametrize("changes, words", [
+    ("damage: {regions: [{side: south, storey: 1}]}", "give column_beam or brace_beam"),
+    ("wall_types: {window: {multiplier: 2}}", "wall_types.window: the name of an opening"),
+    ("structures: {main: {walls: [{along: x, at: 0, from: 2, to: 4, type: []}]}}",
+     "walls[1].type: a list of 0 items"),
+    ("structures: {main: {place: {gap: 3}}}", "place.gap: belongs to 'beside'"),
+    ("structures: {main: {place: {align: north}}}", "place.align: belongs to 'beside'"),
+])
 def test_entries_without_effect_are_refused(house, changes, words):
     with pytest.raises(HouseError) as refusal:
         house(changes + "\n")

@@ -76,10 +76,8 @@ def test_snow_slides_where_the_roof_is_steeper_than_friction(tmp_path, pitch):
         assert (clod.state.pos - clod.state.refPos).norm() == pytest.approx(slide, abs=4e-3)
 
 
-@pytest.mark.parametrize("grid", [
-    "x: {module: 0.91, count: 1}, y: {module: 0.91, count: 1}",
-    "x: {module: 0.91, count: 3}, y: {module: 0.91, count: 3}"
-])
+@pytest.mark.parametrize("grid", ["x: {module: 0.91, count: 1}, y: {module: 0.91, count: 1}",
+                                  "x: {module: 0.91, count: 3}, y: {module: 0.91, count: 3}"])
 def test_one_module_and_a_pyramid_stand(tmp_path, grid):
     last = int(grid[-2])
     start, end = STOREHOUSE.index("    grid:"), len(STOREHOUSE)

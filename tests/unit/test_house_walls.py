@@ -2,17 +2,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Walls in house files: bays, openings, values of their springs, mistakes. Their mechanics: tests/physics/test_wall.py.
 """
-
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 import yaml
-
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "py"))
-
 from timber_houses.house.diagnosis import diagnose
 from timber_houses.house import HouseError, build_house, changed_house, free_wall_bays, load_house, weigh
 from timber_houses.house.nails import nailed_wall
@@ -294,110 +286,64 @@ def test_wrong_names_of_walls(name, words):
         changed_house("C", braces=[name])
 
 
-MISTAKES = {
-    "no column": (
-        "{along: y, at: 8, from: 0, to: 20, type: plywood}", "{}", ["own.yaml:7", "no column at node 20", "0, 1, 2"]),
-    "backwards": ("{along: y, at: 8, from: 3, to: 0, type: plywood}", "{}", ["'from' must be below 'to'"]),
-    "unknown type": ("{along: y, at: 8, from: 0, to: 1, type: plywod}", "{}", [
-        "structures.main.walls[1].type", "did you mean 'plywood'?"
-    ]),
-    "unknown storey": ("{along: y, at: 8, from: 0, to: 1, type: mud, storeys: 3}", "{}", ["no storey 3"]),
-    "twice": ("{along: y, at: [8, 8], from: 0, to: 1, type: mud}", "{}", ["main.wall1.NS.x8.0-1", "type mud already"]),
-    "no strength": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {stiffness: 1.0e5}}", [
-        "own.yaml:3", "wall_types.a", "give multiplier or strength"
-    ]),
-    "descending": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {multiplier: 1, softening_drift: 0.005}}", [
-        "0.01", "must ascend"
-    ]),
-    "two forms": (
-        "{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {nails: %s, envelope: [[0.01, 5000], [0.1, 0]]}}" % NAILS, [
-            "own.yaml:3", "give one of envelope, nails, saws"
-        ]),
-    "friction in kN": (
-        "{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {multiplier: 1, friction_force: 20000}}", [
-            "wall_types.a.friction_force", "below the largest shear", "N/m"
-        ]),
-    "two laws": ("{along: y, at: 8, from: 0, to: 1, type: a}",
-                 "{a: {multiplier: 1, friction_share: 0.2, reload_share: 0.5}}",
-                 ["wall_types.a.reload_share", "does not go with friction_share"]),
-    "half of reloading": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {multiplier: 1, reload_power: 0.5}}",
-                          ["wall_types.a", "reload_drift and reload_power go together"]),
-    "reloading twice": ("{along: y, at: 8, from: 0, to: 1, type: a}",
-                        "{a: {multiplier: 1, reload_power: 0.5, reload_drift: 0.001, reload_share: 0.5}}",
-                        ["wall_types.a.reload_share", "does not go with reload_power"]),
-    "pinched line too steep": ("{along: y, at: 8, from: 0, to: 1, type: a}",
-                               "{a: {envelope: [[0.01, 5000], [0.1, 0]], pinched_share: 0.9}}",
-                               ["wall_types.a.pinched_share", "below the largest shear"]),
-    "residual of slip": (
-        "{along: y, at: 8, from: 0, to: 1, type: a}",
-        "{a: {multiplier: 1, friction_share: 0.2, residual_share: 0.3}}", [
-            "wall_types.a.residual_share", "friction_share"
-        ]),
-    "set in kN": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {saws: %s}}" % SAWS.replace("8000", "8"), [
-        "wall_types.a.saws.F0", "8 kN = 8000"
-    ]),
-    "set without a peak": (
-        "{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {saws: %s}}" % SAWS.replace("DU: 0.015", "DU: 0.0012"), [
-            "wall_types.a.saws", "F0 / S0"
-        ]),
-    "set with own friction": (
-        "{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {friction_force: 100, saws: %s}}" % SAWS, [
-            "'friction_force' does not go with saws"
-        ]),
-    "points descend": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[0.02, 5000], [0.01, 6000]]}}", [
-        "own.yaml:3", "the drifts must ascend"
-    ]),
-    "points end at the peak": (
-        "{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[0.01, 5000], [0.02, 6000]]}}", [
-            "ultimate_drift"
-        ]),
-    "points with a gap": (
-        "{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[0.01, 5000], [0.02, 0], [0.03, 100]]}}", [
-            "only the last point"
-        ]),
-    "shear in kN": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[0.01, 6.6], [0.1, 0]]}}", [
-        "own.yaml:3", "N per m of wall", "kN"
-    ]),
-    "no points": (
-        "{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[0, 0]]}}", ["needs points [drift, shear]"]),
-    "shear at rest": (
-        "{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[0, 500], [0.1, 0]]}}", ["with drifts > 0"]),
-    "point of one number": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [0.01, 5000]}}", [
-        "envelope[1]", "a list of two items"
-    ]),
-    "drift in percent": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {envelope: [[1.5, 5000], [3, 0]]}}", [
-        "envelope[1][1]", "[0, 0.5] rad"
-    ]),
-    "drift of a part in percent": ("{along: y, at: 8, from: 0, to: 1, type: a}",
-                                   "{a: {multiplier: 2.5, softening_drift: 3.3}}", ["3.3 % = 0.033"]),
-    "strength of a wall in kN": ("{along: y, at: 8, from: 0, to: 1, type: a}",
-                                 "{a: {strength: 13.3, stiffness: 8.0e5}}", ["[100, 1e+06] N/m", "13.3 kN/m = 13300"]),
-    "stiffness of a wall in kN": ("{along: y, at: 8, from: 0, to: 1, type: a}",
-                                  "{a: {strength: 13300, stiffness: 800}}", ["800 kN/m per rad = 800000"]),
-    "friction force in kN": ("{along: y, at: 8, from: 0, to: 1, type: a}",
-                             "{a: {multiplier: 2.5, friction_force: 1.3}}", ["friction_force", "kN are 1000 N"]),
-    "nails in kN/mm": (
-        "{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {nails: %s}}" % NAILS.replace("4.83e5", "0.483"), [
-            "nails.k", "0.483 kN/mm = 483000"
-        ]),
-    "nails without slip": (
-        "{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {nails: %s}}" % NAILS.replace("du: 0.017", "du: 0.002"), [
-            "nails.du", "greater than Pv / k"
-        ]),
-    "nails in contradiction": (
-        "{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {nails: %s}}" % NAILS.replace("2.3e-3", "4e-3"), [
-            "nails.dv", "within 10 %"
-        ]),
-    "strength of nails": ("{along: y, at: 8, from: 0, to: 1, type: a}", "{a: {strength: 5000, nails: %s}}" % NAILS, [
-        "'strength' does not go with nails"
-    ]),
-    "opening": ("{along: y, at: 8, from: 0, to: 1, type: mud, opening: hole}", "{}", ["none, window, door"]),
+WRONG_WALLS = {
+    "no column": ("{along: y, at: 8, from: 0, to: 20, type: plywood}",
+                  ["own.yaml:7", "no column at node 20", "0, 1, 2"]),
+    "backwards": ("{along: y, at: 8, from: 3, to: 0, type: plywood}", ["'from' must be below 'to'"]),
+    "unknown type": ("{along: y, at: 8, from: 0, to: 1, type: plywod}",
+                     ["structures.main.walls[1].type", "did you mean 'plywood'?"]),
+    "unknown storey": ("{along: y, at: 8, from: 0, to: 1, type: mud, storeys: 3}", ["no storey 3"]),
+    "twice": ("{along: y, at: [8, 8], from: 0, to: 1, type: mud}", ["main.wall1.NS.x8.0-1", "type mud already"]),
+    "opening": ("{along: y, at: 8, from: 0, to: 1, type: mud, opening: hole}", ["none, window, door"]),
 }
+WRONG_TYPES = {
+    "no strength": ("{a: {stiffness: 1.0e5}}", ["own.yaml:3", "wall_types.a", "give multiplier or strength"]),
+    "descending": ("{a: {multiplier: 1, softening_drift: 0.005}}", ["0.01", "must ascend"]),
+    "two forms": ("{a: {nails: %s, envelope: [[0.01, 5000], [0.1, 0]]}}" % NAILS,
+                  ["own.yaml:3", "give one of envelope, nails, saws"]),
+    "friction in kN": ("{a: {multiplier: 1, friction_force: 20000}}",
+                       ["wall_types.a.friction_force", "below the largest shear", "N/m"]),
+    "two laws": ("{a: {multiplier: 1, friction_share: 0.2, reload_share: 0.5}}",
+                 ["wall_types.a.reload_share", "does not go with friction_share"]),
+    "half of reloading": ("{a: {multiplier: 1, reload_power: 0.5}}",
+                          ["wall_types.a", "reload_drift and reload_power go together"]),
+    "reloading twice": ("{a: {multiplier: 1, reload_power: 0.5, reload_drift: 0.001, reload_share: 0.5}}",
+                        ["wall_types.a.reload_share", "does not go with reload_power"]),
+    "pinched line too steep": ("{a: {envelope: [[0.01, 5000], [0.1, 0]], pinched_share: 0.9}}",
+                               ["wall_types.a.pinched_share", "below the largest shear"]),
+    "residual of slip": ("{a: {multiplier: 1, friction_share: 0.2, residual_share: 0.3}}",
+                         ["wall_types.a.residual_share", "friction_share"]),
+    "set in kN": ("{a: {saws: %s}}" % SAWS.replace("8000", "8"), ["wall_types.a.saws.F0", "8 kN = 8000"]),
+    "set without a peak": ("{a: {saws: %s}}" % SAWS.replace("DU: 0.015", "DU: 0.0012"),
+                           ["wall_types.a.saws", "F0 / S0"]),
+    "set with own friction": ("{a: {friction_force: 100, saws: %s}}" % SAWS,
+                              ["'friction_force' does not go with saws"]),
+    "points descend": ("{a: {envelope: [[0.02, 5000], [0.01, 6000]]}}", ["own.yaml:3", "the drifts must ascend"]),
+    "points end at the peak": ("{a: {envelope: [[0.01, 5000], [0.02, 6000]]}}", ["ultimate_drift"]),
+    "points with a gap": ("{a: {envelope: [[0.01, 5000], [0.02, 0], [0.03, 100]]}}", ["only the last point"]),
+    "shear in kN": ("{a: {envelope: [[0.01, 6.6], [0.1, 0]]}}", ["own.yaml:3", "N per m of wall", "kN"]),
+    "no points": ("{a: {envelope: [[0, 0]]}}", ["needs points [drift, shear]"]),
+    "shear at rest": ("{a: {envelope: [[0, 500], [0.1, 0]]}}", ["with drifts > 0"]),
+    "point of one number": ("{a: {envelope: [0.01, 5000]}}", ["envelope[1]", "a list of two items"]),
+    "drift in percent": ("{a: {envelope: [[1.5, 5000], [3, 0]]}}", ["envelope[1][1]", "[0, 0.5] rad"]),
+    "drift of a part in percent": ("{a: {multiplier: 2.5, softening_drift: 3.3}}", ["3.3 % = 0.033"]),
+    "strength of a wall in kN": ("{a: {strength: 13.3, stiffness: 8.0e5}}", ["[100, 1e+06] N/m", "13.3 kN/m = 13300"]),
+    "stiffness of a wall in kN": ("{a: {strength: 13300, stiffness: 800}}", ["800 kN/m per rad = 800000"]),
+    "friction force in kN": ("{a: {multiplier: 2.5, friction_force: 1.3}}", ["friction_force", "kN are 1000 N"]),
+    "nails in kN/mm": ("{a: {nails: %s}}" % NAILS.replace("4.83e5", "0.483"), ["nails.k", "0.483 kN/mm = 483000"]),
+    "nails without slip": ("{a: {nails: %s}}" % NAILS.replace("du: 0.017", "du: 0.002"),
+                           ["nails.du", "greater than Pv / k"]),
+    "nails in contradiction": ("{a: {nails: %s}}" % NAILS.replace("2.3e-3", "4e-3"), ["nails.dv", "within 10 %"]),
+    "strength of nails": ("{a: {strength: 5000, nails: %s}}" % NAILS, ["'strength' does not go with nails"]),
+}
+"""{name: (wall or `wall_types`, parts of the message)}"""
 
 
-@pytest.mark.parametrize("name", MISTAKES)
-def test_mistake(tmp_path, name):
-    walls, types, words = MISTAKES[name]
+@pytest.mark.parametrize("wall, types, words", [
+    *((wall, "{}", words) for wall, words in WRONG_WALLS.values()),
+    *(("{along: y, at: 8, from: 0, to: 1, type: a}", types, words) for types, words in WRONG_TYPES.values())],
+                         ids=[*WRONG_WALLS, *WRONG_TYPES])
+def test_mistake(tmp_path, wall, types, words):
     with pytest.raises(HouseError) as caught:
-        house(tmp_path, walls, types)
+        house(tmp_path, wall, types)
     assert [word for word in words if word not in str(caught.value)] == [], caught.value

@@ -5,10 +5,8 @@ within limits of time and memory.
 
 Few examples; the long run is in tests/stress.
 """
-
 import pytest
 from hypothesis import HealthCheck, given, settings
-
 from btlx_sample import portal
 from input_fuzz import (FRAME, KINDS, SHED, TABLES, TOWNS, record_texts, use_btlx, use_house, use_options, use_record,
                         use_table, use_town)

@@ -117,13 +117,6 @@ def test_saved_with_the_forces_of_the_last_step():
     assert (joint.forces, joint.stretches, joint.load) == (forces, stretches, load)
 
 
-def test_joint_of_an_erased_body():
-    state, joint = hung()
-    O.bodies.erase(joint.id2)
-    O.step()
-    assert joint.isBroken and joint.load == 0 and not find_engine(yt.JointEngine).breaks
-
-
 def test_joint_that_is_appended_during_a_run():
     joint = hung()[1]
     forces = joint.forces

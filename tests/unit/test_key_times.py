@@ -3,6 +3,8 @@
 """Key times of a run: named ones, frames chosen by their motion, no two alike. Needs no YADE."""
 import numpy as np
 import pytest
+from matplotlib.patches import Rectangle
+from matplotlib.text import Text
 from small_frames import frames
 from timber_houses.pictures import key_times, report_pictures, sheets
 from timber_houses.pictures.views import FRONT
@@ -54,14 +56,14 @@ def test_titles_fit_their_panels(form):
     """Whole, and no wider than the panel and the gap beside it."""
     made = frames()
     made.summary = made.summary.changed(tilt_time_s=None, events=[Event(1.8, StructureFallen("entrance"))])
-    figure = sheets.sheet(made, FRONT, form)
+    figure = sheets.Stills(made).sheet(FRONT, form)
     figure.canvas.draw()
-    panels = [axis for axis in figure.axes if axis.get_title(loc="left")]
-    assert len(panels) >= 3
-    for axis in panels:
-        title = axis._left_title
-        assert " s:" in title.get_text() and "…" not in title.get_text()
-        assert title.get_window_extent().width <= axis.get_window_extent().width + sheets.GAP * figure.dpi
+    frames_of_panels = [artist for artist in figure.artists if isinstance(artist, Rectangle)]
+    titles = [artist for artist in figure.artists if isinstance(artist, Text) and " s:" in artist.get_text()]
+    assert len(titles) == len(frames_of_panels) >= 3
+    for title, panel in zip(titles, frames_of_panels):
+        assert "…" not in title.get_text()
+        assert title.get_window_extent().width <= panel.get_window_extent().width + sheets.GAP * figure.dpi
 
 
 def test_no_panel_repeats_another():

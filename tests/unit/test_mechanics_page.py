@@ -2,16 +2,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """docs/mechanics.md is what scripts/bench/mechanics/write_mechanics.py makes of the CSV files; misses are marked."""
 import pathlib
-import sys
 
 import pytest
-
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts/bench"))
-
 from mechanics import write_mechanics
 from mechanics.rows import table
 
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs/mechanics.md"
 FOUND = write_mechanics.columns(ROOT / "docs/mechanics")
 

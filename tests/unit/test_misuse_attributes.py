@@ -78,6 +78,7 @@ REFUSED = [
     ("ContactForces", "sweeps", -3),
     ("ContactForces", "tolerance", -1.0),
     ("Bo1_RoundedPolyhedron_Aabb", "margin", -1.0),
+    ("Bo1_RoundedPolyhedron_Aabb", "margin", 0.0),
     *[(ip2, "dampingRatio", value) for ip2, _, _ in compiled.contact_laws() for value in (-1.0, INF)],
 ]
 
@@ -105,9 +106,8 @@ def test_each_class(name):
     with pytest.raises(AttributeError) as error:
         cls(notThere=1)
     is_one_line(error, "notThere")
-    for attribute, value in {
-            "label": "mine", "dead": True, "ompThreads": 2, "color": Vector3(0, 1, 0), "wire": True, "execCount": 3
-    }.items():
+    for attribute, value in {"label": "mine", "dead": True, "ompThreads": 2, "color": Vector3(0, 1, 0), "wire": True,
+                             "execCount": 3}.items():
         if hasattr(cls, attribute):
             setattr(target, attribute, value)
             assert getattr(target, attribute) == value
@@ -122,30 +122,6 @@ def test_each_class(name):
             is_one_line(error, f"{name}.{attribute}")
             with pytest.raises(TypeError) as error:
                 cls(**{attribute: object()})
-            is_one_line(error, f"{name}.{attribute}")
-
-
-RESULTS = {
-    "ContactForces": {
-        "dashpotNormal", "dashpotShear", "friction", "jointDashpot", "released", "elasticNormal", "elasticShear",
-        "elasticJoints", "placed", "created", "jointDebt", "worstChange", "unconverged", "sweepsMax"
-    },
-    "GroundMotionEngine": {"work"},
-    "JointBreak": {"time", "force"},
-    "JointEngine": {"released", "elastic", "yielded", "created"},
-}
-"""Attributes that the engines compute."""
-PAIRS = {"ManifoldPhys", *(phys for _, phys, _ in compiled.contact_laws())}
-"""Classes whose attributes Ip2 functors compute."""
-
-
-@pytest.mark.parametrize("name", sorted(set(yt._class_names) - PAIRS))
-def test_nan_is_no_parameter(name):
-    target = complete(name)
-    for attribute, value in target.dict().items():
-        if type(value) is float and getattr(type(target), attribute).fset and attribute not in RESULTS.get(name, ()):
-            with pytest.raises(ValueError) as error:
-                setattr(target, attribute, NAN)
             is_one_line(error, f"{name}.{attribute}")
 
 
@@ -193,7 +169,6 @@ CALLS = [
     (lambda: yt.timber(label=3), "timber: label"),
     (lambda: yt.timber(density=-1), "TimberMat.density = -1"),
     (lambda: yt.engines(gravity=9.81), "engines: gravity = 9.81"),
-    (lambda: yt.engines(gravity=(0, 0, NAN)), "engines: gravity"),
     (lambda: yt.engines(sweeps=2.5), "engines: sweeps = 2.5"),
     (lambda: yt.engines(sweeps=-3), "engines: sweeps = -3"),
     (lambda: yt.engines(tolerance=-1), "engines: tolerance = -1"),
@@ -202,42 +177,29 @@ CALLS = [
     (lambda: yt.engines(health_check=-1), "engines: health_check"),
     (lambda: yt.engines(skip_rest=10**12), "engines: skip_rest"),
     (lambda: yt.engines(monitor=3), "engines: monitor"),
-    (lambda: yt.engines(joints=7), "engines: joints"),
     (lambda: yt.engines(joints=[7]), "engines: joints"),
     (lambda: yt.engines(ground_motion="kobe"), "ground_motion = 'kobe'"),
     (lambda: yt.connect(0, 1, []), "connect: points"),
-    (lambda: yt.connect(0, 1, [(0, 0)]), "connect: points"),
     (lambda: yt.connect(0, 1, [(0, 0, NAN)]), "connect: points"),
-    (lambda: yt.connect(0, 1, "abc"), "connect: points"),
     (lambda: yt.connect(0, 1, [(0, 0, 0)], normal=(0, 0, 0)), "connect: normal"),
-    (lambda: yt.connect(0, 1, [(0, 0, 0)], stiffness=5), "connect: stiffness"),
     (lambda: yt.connect(0, 1, [(0, 0, 0)], stiffness=(1, -1)), "connect: stiffness"),
-    (lambda: yt.connect(0, 1, [(0, 0, 0)], strength="strong"), "connect: strength"),
     (lambda: yt.connect(0, 1, [(0, 0, 0)], strength=0), "connect: strength"),
     (lambda: yt.connect(0, 1, [(0, 0, 0)], per="nail"), "connect: per", "nail"),
-    (lambda: yt.connect(0, 1, [(0, 0, 0)], per=[]), "connect: per"),
     (lambda: yt.connect(0, 1, [(0, 0, 0)], kind=1), "connect: kind"),
     (lambda: yt.connect(0, 1, [(0, 0, 0)], damping_ratio=1.5), "connect: damping_ratio", "1.5"),
-    (lambda: yt.connect(0, 1, [(0, 0, 0)], damping_ratio=NAN), "connect: damping_ratio"),
-    (lambda: yt.connect(0, 1, [(0, 0, 0)], damping_ratio="critical"), "connect: damping_ratio"),
     (lambda: yt.connect("a", 1, [(0, 0, 0)]), "connect", "no body"),
     (lambda: yt.contacts(0, 99), "contacts", "99"),
-    (lambda: yt.stable_dt("small"), "stable_dt: safety"),
     (lambda: yt.stable_dt(-1), "stable_dt: safety"),
     (lambda: yt.energy_residual(3), "energy_residual: terms"),
-    (lambda: yt.box((1, 1, 1), "abc"), "centre = 'abc'"),
     (lambda: yt.box((1, 1, 1), (0, 0)), "centre = (0, 0)"),
-    (lambda: yt.box((1, 1), (0, 0, 0)), "extents"),
     (lambda: yt.box((1, 1, -1), (0, 0, 0)), "extents"),
     (lambda: yt.box((1, 1, 1), (0, 0, 0), orientation=(1, 0, 0)), "orientation"),
     (lambda: yt.box((1, 1, 1), (0, 0, 0), material="oak"), "material = 'oak'"),
     (lambda: yt.box((1, 1, 1), (0, 0, 0), fixed="no"), "fixed"),
-    (lambda: yt.box((1, 1, 1), (0, 0, 0), radius="thin"), "radius"),
     (lambda: yt.box((1, 1, 1), (0, 0, 0), radius=-0.1), "radius"),
     (lambda: yt.box((1, 1, 1), (0, 0, 0), radius=1e-6), "radius"),
     (lambda: yt.box((1, 1, 1), (0, 0, 0), name=5), "name"),
     (lambda: yt.box((1, 1, 1), (0, 0, 0), color="red"), "color"),
-    (lambda: yt.polyhedron([]), "vertices"),
     (lambda: yt.polyhedron([("a", 0, 0)]), "vertices"),
     (lambda: yt.set_velocity(O.bodies[1], 3), "velocity"),
     (lambda: yt.set_velocity("x", (0, 0, 1)), "body"),

@@ -17,8 +17,7 @@ from timber_houses.scene.modes import natural_modes
 
 yt.guard()
 
-LISTS = {yw.Sampler: "axes load opening pull rows shear",
-         yw.JointEngine: "breaks joints",
+LISTS = {yw.Sampler: "axes load opening pull rows shear", yw.JointEngine: "breaks joints",
          yw.TimberJoint: "broken cycles forces largestStretches load plasticStretches springs stretches",
          yw.ManifoldGeom: "points", yw.ManifoldPhys: "points"}
 """Attributes that the engines change within a step."""

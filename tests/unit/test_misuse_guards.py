@@ -7,7 +7,7 @@ import math
 import pytest
 import yade.wrapper as yw
 import yade_timber as yt
-from column_sample import column_on_plate, is_one_line
+from column_sample import column_on_plate, is_one_line, refused
 from yade import O
 from yade.minieigenHP import Vector3
 from yade_timber.scene.engines import find_engine
@@ -16,14 +16,6 @@ yt.guard()
 
 raw_update = yt.scene.attributes._update_attributes
 """YADE's own updateAttrs: a door that no rule in Python watches."""
-
-
-def refused(*words):
-    """The next step is refused in one line with these words, and every later one."""
-    for _ in range(2):
-        with pytest.raises(RuntimeError) as error:
-            O.step()
-        is_one_line(error, *words)
 
 
 # --- engines ----------------------------------------------------------------------------------------------------------
@@ -129,16 +121,6 @@ def test_part_replaced_by_a_hidden_door(name, value, words):
     refused(*words)
 
 
-@pytest.mark.parametrize("name, value", [("shape", None), ("shape", yw.Sphere(radius=0.1)), ("material", None),
-                                         ("state", None), ("state", yw.State()), ("id", 7)])
-def test_part_replaced_by_update(name, value):
-    """As an assignment: refused at once, or before the next step."""
-    _, column = column_on_plate()
-    with pytest.raises((ValueError, AttributeError, RuntimeError)):
-        O.bodies[column].updateAttrs({name: value})
-        O.step()
-
-
 def test_vertices_of_a_standing_body():
     _, column = column_on_plate()
     shape = O.bodies[column].shape
@@ -191,25 +173,16 @@ def test_bodies_cleared_and_replaced():
     O.step()
 
 
-@pytest.mark.parametrize("update", [
-    lambda s: setattr(s, "angVel", (0, 0, 5)), lambda s: s.updateAttrs({"angVel": Vector3(0, 0, 5)}),
-    lambda s: raw_update(s, {"angVel": Vector3(0, 0, 5)})
-])
-def test_angular_velocity_set_by_hand(update):
-    O.reset()
-    body = O.bodies.append(yt.box((0.3, 0.3, 0.1), (0, 0, 2)))
-    O.dt, O.engines = 2e-4, yt.engines()
-    update(O.bodies[body].state)
-    O.run(10, True)
-    assert O.bodies[body].state.angVel[2] == pytest.approx(5, rel=1e-12)
-
-
 def test_angular_velocity_changed_in_a_run():
+    """By each door."""
     O.reset()
     body = O.bodies.append(yt.box((0.3, 0.3, 0.1), (0, 0, 2)))
     O.dt, O.engines = 2e-4, yt.engines()
-    for speed in (5, -2, 0):
-        O.bodies[body].state.angVel = (0, 0, speed)
+    state = O.bodies[body].state
+    doors = (lambda v: raw_update(state, {"angVel": v}), lambda v: state.updateAttrs({"angVel": v}),
+             lambda v: setattr(state, "angVel", v))
+    for speed, door in zip((5, -2, 0), doors):
+        door(Vector3(0, 0, speed))
         O.run(10, True)
         assert O.bodies[body].state.angVel[2] == pytest.approx(speed, abs=1e-12)
 

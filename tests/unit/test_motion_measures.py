@@ -1,17 +1,12 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Measures against closed forms, an independent integration, and published values of real records where available."""
-
 import os
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
-
 from timber_houses import motion as gm
 from timber_houses.motion.measures import jma_filter, lasting_level, oscillator
 
@@ -84,17 +79,14 @@ def test_highpass_of_velocity_removes_an_offset():
 # --- JMA intensity ------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    "frequency, period_effect, high_cut, low_cut",
-    [
-        # x = 0.05: 1 + 0.694 0.0025 + 0.241 6.25e-6 = 1.0017365;  1 - exp(-1) = 0.632121
-        (0.5, 1.414214, 0.999133, 0.795060),
-        # x = 0.1: 1 + 0.00694 + 0.0000241 + 5.6e-8 = 1.0069642;  1 - exp(-8) = 0.999665
-        (1.0, 1.0, 0.996536, 0.999832),
-        # x = 1: 1 + 0.694 + 0.241 + 0.0557 + 0.009664 + 0.00134 + 0.000155 = 2.001859
-        (10.0, 0.316228, 0.706778, 1.0),
-    ],
-)
+@pytest.mark.parametrize("frequency, period_effect, high_cut, low_cut", [
+    # x = 0.05: 1 + 0.694 0.0025 + 0.241 6.25e-6 = 1.0017365;  1 - exp(-1) = 0.632121
+    (0.5, 1.414214, 0.999133, 0.795060),
+    # x = 0.1: 1 + 0.00694 + 0.0000241 + 5.6e-8 = 1.0069642;  1 - exp(-8) = 0.999665
+    (1.0, 1.0, 0.996536, 0.999832),
+    # x = 1: 1 + 0.694 + 0.241 + 0.0557 + 0.009664 + 0.00134 + 0.000155 = 2.001859
+    (10.0, 0.316228, 0.706778, 1.0),
+])
 def test_jma_filter_by_hand(frequency, period_effect, high_cut, low_cut):
     """The three factors computed on paper to six digits, hence the tolerance."""
     assert float(jma_filter(frequency)) == pytest.approx(period_effect * high_cut * low_cut, rel=3e-6)

@@ -1,15 +1,8 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Processing of a motion: closed forms, the original unchanged, a note in `source`."""
-
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
-
 from timber_houses import motion as gm
 
 

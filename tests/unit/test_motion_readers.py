@@ -4,10 +4,8 @@
 
 With YADE_TIMBER_RECORDS naming a folder of real records, those are checked against their published peaks too.
 """
-
 import os
 import re
-import sys
 import time
 import warnings
 from datetime import datetime
@@ -15,9 +13,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
-
 from timber_houses.motion import (GAL, GroundMotion, MotionRequest, RecordError, RecordWarning, read_motion, trim,
                                 write_csv)
 from timber_houses.motion.readers import find_files
@@ -235,15 +230,6 @@ def test_at2_header_spacings(tmp_path, card):
     np.testing.assert_allclose(motion.ns / GAL, WAVES["ns"], rtol=1e-6)
 
 
-def test_at2_prefix_finds_three_components(tmp_path):
-    for name, suffix, title in (("ns", "000", "0"), ("ew", "090", "90"), ("ud", "-UP", "UP")):
-        write(tmp_path, f"RSN1_TST{suffix}.AT2", at2_text(WAVES[name], title))
-    motion = read_motion(tmp_path / "RSN1_TST")
-    assert motion.name == "RSN1_TST"
-    for name, wave in WAVES.items():
-        np.testing.assert_allclose(getattr(motion, name) / GAL, wave, rtol=1e-6)
-
-
 def test_at2_azimuth_gives_signs_and_projections(tmp_path):
     south = read_motion(write(tmp_path, "S180.AT2", at2_text(WAVES["ns"], "180")))
     np.testing.assert_allclose(south.ns / GAL, -WAVES["ns"], rtol=1e-6)
@@ -262,11 +248,15 @@ def test_at2_component_stated_by_the_caller(tmp_path):
     np.testing.assert_allclose(read_motion(numbered, component="ew").ew / GAL, WAVES["ew"], rtol=1e-6)
 
 
-def test_at2_prefix_with_compass_letters(tmp_path):
-    """The naming of Japanese stations in NGA-West2."""
-    for name in WAVES:
-        write(tmp_path, f"RSN1_NIG019{name.upper()}.AT2", at2_text(WAVES[name], "somewhere"))
+@pytest.mark.parametrize("suffixes, titles", [
+    (("000", "090", "-UP"), ("0", "90", "UP")), (("NS", "EW", "UD"), ("somewhere",) * 3), (("NS2", "EW2", "UD2"), None),
+    (("HNN", "HNE", "HNZ"), None), (("N00E", "N90E", "UP"), None)])
+def test_at2_prefix_finds_three_components(tmp_path, suffixes, titles):
+    """Azimuths, and the namings of NGA-West2. titles: directions in the files, those of the names by default"""
+    for wave, suffix, title in zip(WAVES.values(), suffixes, titles or suffixes):
+        write(tmp_path, f"RSN1_NIG019{suffix}.AT2", at2_text(wave, title))
     motion = read_motion(tmp_path / "RSN1_NIG019")
+    assert motion.name.startswith("RSN1_NIG019")
     for name, wave in WAVES.items():
         np.testing.assert_allclose(getattr(motion, name) / GAL, wave, rtol=1e-6)
 
@@ -288,10 +278,8 @@ def test_numbers_of_fortran_and_the_end_of_a_dos_file(tmp_path):
     assert read_motion(path).ns / GAL == pytest.approx([-0.1416764e-3, 0.01, 2.0])
 
 
-@pytest.mark.parametrize("head", [
-    "# dt: 0.01,,\nns [gal],ew [gal],,\n", '"# dt: 0.01",,\n"ns [gal]","ew [gal]",,\n',
-    "# dt: 0.01;;\nns [gal];ew [gal];;\n"
-])
+@pytest.mark.parametrize("head", ["# dt: 0.01,,\nns [gal],ew [gal],,\n", '"# dt: 0.01",,\n"ns [gal]","ew [gal]",,\n',
+                                  "# dt: 0.01;;\nns [gal];ew [gal];;\n"])
 def test_csv_from_a_spreadsheet(tmp_path, head):
     """Quoted comments, short rows filled with delimiters."""
     rows = "1,2,,\n3,4,,\n" if "," in head else "1;2;;\n3;4;;\n"
@@ -367,23 +355,20 @@ def csv_text(head, columns=("ns", "ew", "ud"), dt=None):
     return head + "\n" + "\n".join(",".join(f"{v:.6f}" for v in row) for row in rows) + "\n"
 
 
-@pytest.mark.parametrize(
-    "text, units",
-    [
-        (csv_text("# units: gal\n# dt: 0.02\nns,ew,ud"), None),
-        (csv_text("# dt: 0.02\nns,ew,ud"), "gal"),
-        (csv_text("time,NS [gal],EW [gal],UD [gal]", dt=0.02), None),
-        (csv_text("time [s],north_gal,east_gal,up_gal", dt=0.02), None),
-        (csv_text("time [ms],ns [gal],ew [gal],ud [gal]", dt=20), None),
-        (csv_text("# unit = cm/s2\n# sampling: 50 Hz\nUD,N-S,E-W", ("ud", "ns", "ew")), "gal"),
-        (csv_text("# units: gal\n# dt: 0.02\nns;ew;ud").replace(",", ";"), None),
-        (csv_text("# units: gal\n# time,ns,ew,ud", dt=0.02), None),
-        (csv_text("# NPTS: 40, from an AT2 file\n# units: gal\n# dt: 0.02\nns,ew,ud"), None),
-        (csv_text("# units: gal\n# dt: 0.02\nns,ew,ud\n# values") + "# end of record\n", None),
-        (csv_text("# units: gal\n# dt: 0.02\nns,ew,ud").replace(",", '" , "'), None),
-        (csv_text("# dt: 0.02\n# sampling: 50 Hz\n# dt: 0.02\nns_gal,ew_gal,ud_gal"), None),
-    ],
-)
+@pytest.mark.parametrize("text, units", [
+    (csv_text("# units: gal\n# dt: 0.02\nns,ew,ud"), None),
+    (csv_text("# dt: 0.02\nns,ew,ud"), "gal"),
+    (csv_text("time,NS [gal],EW [gal],UD [gal]", dt=0.02), None),
+    (csv_text("time [s],north_gal,east_gal,up_gal", dt=0.02), None),
+    (csv_text("time [ms],ns [gal],ew [gal],ud [gal]", dt=20), None),
+    (csv_text("# unit = cm/s2\n# sampling: 50 Hz\nUD,N-S,E-W", ("ud", "ns", "ew")), "gal"),
+    (csv_text("# units: gal\n# dt: 0.02\nns;ew;ud").replace(",", ";"), None),
+    (csv_text("# units: gal\n# time,ns,ew,ud", dt=0.02), None),
+    (csv_text("# NPTS: 40, from an AT2 file\n# units: gal\n# dt: 0.02\nns,ew,ud"), None),
+    (csv_text("# units: gal\n# dt: 0.02\nns,ew,ud\n# values") + "# end of record\n", None),
+    (csv_text("# units: gal\n# dt: 0.02\nns,ew,ud").replace(",", '" , "'), None),
+    (csv_text("# dt: 0.02\n# sampling: 50 Hz\n# dt: 0.02\nns_gal,ew_gal,ud_gal"), None),
+])
 def test_plain_csv_forms(tmp_path, text, units):
     motion = read_motion(write(tmp_path, "a.csv", text), units=units)
     assert motion.dt == pytest.approx(0.02)
@@ -400,14 +385,11 @@ def test_rounded_times_beside_a_stated_step(tmp_path, rate, digits):
 
 @pytest.mark.parametrize("component, azimuth", [
     ("-90", 270), ("22.5", 22.5), ("0.5", 0.5), ("45.0", 45), ("360", 0), ("090", 90), ("N-S", 0), ("-UP", "up"),
-    ("361", None), ("-1e9", None), ("nan", None), ("north-west", None)])
+    ("361", None), ("-1e9", None), ("nan", None), ("north-west", None), ("N10E", 10), ("N90E", 90), ("S10E", 170),
+    ("S20W", 200), ("N15W", 345), ("N00E", 0), ("HNN", 0), ("HNE", 90), ("HNZ", "up"), ("BLE", 90), ("NS2", 0),
+    ("EW1", 90), ("UD2", "up"), ("L", None), ("T", None), ("HNX", None), ("N100E", None)])
 def test_directions(component, azimuth):
     assert direction_of(component) == azimuth
-
-
-def test_a_turn_of_360_degrees_is_none(tmp_path):
-    path = write(tmp_path, "a000.AT2", at2_text(WAVES["ns"], "360"))
-    assert np.abs(read_motion(path).ns / GAL - WAVES["ns"]).max() < 1e-3
 
 
 def test_units_scale(tmp_path):
@@ -443,7 +425,6 @@ HOW = "convert it to a plain CSV: a line '# dt: 0.01'"
 """What each refusal of another form says."""
 REFUSALS = {  # name of the file, its text, place and members in the message
     "unknown format": ("a.txt", lambda: "hello\nworld\n", f"a.txt: unknown record format; {HOW}.*K-NET"),
-    "numbers alone": ("a.txt", lambda: "0.0 1.0\n0.1 2.0\n", f"a.txt: unknown record format; {HOW}"),
     "unknown columns": ("a.csv", lambda: "t,AccX,AccY\n0,1,2\n", f"a.csv: unknown record format; {HOW}"),
     "COSMOS": ("a.V2", lambda: "Corrected acceleration    (Format v01.20 with 13 text lines)\n",
                f"a.V2: COSMOS format.*; {HOW}"),
@@ -476,8 +457,6 @@ REFUSALS = {  # name of the file, its text, place and members in the message
     "no step": ("a.csv", lambda: csv_text("# units: gal\nns,ew,ud"), "a.csv: .*# dt"),
     "time in minutes": ("a.csv", lambda: csv_text("time [min],ns [gal],ew [gal],ud [gal]", dt=0.02), "a.csv: .*'min'"),
     "dt of zero": ("a.csv", lambda: csv_text("# units: gal\n# dt: 0\nns,ew,ud"), "a.csv:2: dt: .*0.0001 and 1 s"),
-    "dt of a nanosecond": ("a.csv", lambda: csv_text("# units: gal\n# dt: 1e-9\nns,ew,ud"),
-                           "a.csv:2: dt: .*0.0001 and 1 s"),
     "gap in time": ("a.csv", lambda: "# units: gal\ntime,ns\n0,1\n0.01,1\n0.02,1\n0.04,1\n", "a.csv: sample"),
     "short row": ("a.csv", lambda: "# units: gal\n# dt: 0.01\nns,ew\n1,2\n3\n", "a.csv:5: 1 values.* 2 "),
     "fewer rows than stated": ("a.csv", lambda: "# units: gal\n# dt: 1\n# samples: 3\nns\n1\n2\n",
@@ -495,7 +474,6 @@ REFUSALS = {  # name of the file, its text, place and members in the message
     "NaN in CSV": ("a.csv", lambda: "# units: gal\n# dt: 0.01\nns\n1\nnan\n", "a.csv:5: 'nan'"),
     "truncated AT2": ("a000.AT2", lambda: at2_text(WAVES["ns"], "0", "NPTS= 50, DT= .02 SEC"),
                       "a000.AT2: .*40 samples; NPTS .*50"),
-    "long AT2": ("a000.AT2", lambda: at2_text(WAVES["ns"], "0", "NPTS= 30, DT= .02 SEC"), "a000.AT2: .*NPTS .*30"),
     "AT2 of many digits": ("a000.AT2", lambda: at2_text(WAVES["ns"], "0", f"NPTS= {'9' * 900}, DT= .02 SEC"),
                            "a000.AT2:4: NPTS"),
     "NaN in AT2": ("a000.AT2", lambda: at2_text(np.r_[WAVES["ns"][:-1], np.nan], "0"), "a000.AT2:12: 'NAN'"),
@@ -658,34 +636,10 @@ def test_real_records_have_their_published_peaks(name, peaks):
     assert {k: round(got[k], digits) for k in peaks} == peaks
 
 
-@pytest.mark.parametrize("name, direction", [
-    ("N10E", 10.0), ("N90E", 90.0), ("S10E", 170.0), ("S20W", 200.0), ("N15W", 345.0), ("N00E", 0.0), ("HNN", 0.0),
-    ("HNE", 90.0), ("HNZ", "up"), ("BLE", 90.0), ("NS2", 0.0), ("EW1", 90.0), ("UD2", "up"), ("L", None), ("T", None),
-    ("HNX", None), ("N100E", None),
-])
-def test_names_of_components_in_nga_west2(name, direction):
-    assert direction_of(name) == direction
-
-
-def write_at2(folder, prefix, suffixes):
-    for suffix, size in zip(suffixes, (0.1, 0.2, 0.3)):
-        (folder / f"{prefix}{suffix}.AT2").write_text(
-            f"PEER NGA STRONG MOTION DATABASE RECORD\nTest, 1/1/2008, {prefix}, {suffix}\n"
-            f"ACCELERATION TIME SERIES IN UNITS OF G\nNPTS=   4, DT=   .0100 SEC,\n  0.0  {size}  -{size}  0.0\n")
-
-
-@pytest.mark.parametrize("suffixes", [("NS2", "EW2", "UD2"), ("HNN", "HNE", "HNZ"), ("N00E", "N90E", "UP")])
-def test_prefix_of_files_of_nga_west2(tmp_path, suffixes):
-    write_at2(tmp_path, "RSN1_TEST_X", suffixes)
-    motion = read_motion(tmp_path / "RSN1_TEST_X")
-    peaks = np.abs(motion.acceleration).max(0) / 9.80665  # east, north, up
-    assert peaks == pytest.approx([0.2, 0.1, 0.3], rel=1e-3)
-
-
 def test_prefix_of_other_files_names_them(tmp_path):
-    write_at2(tmp_path, "RSN1_", ("QQ", "RR"))
+    for name in ("RSN1_QQ", "RSN1_RR", "RSN2_XL", "RSN2_XT", "RSN2_XUP"):
+        write(tmp_path, f"{name}.AT2", at2_text(WAVES["ns"], "somewhere"))
     with pytest.raises(RecordError, match="files of that beginning: RSN1_QQ.AT2, RSN1_RR.AT2"):
         read_motion(tmp_path / "RSN1_")
-    write_at2(tmp_path, "RSN2_X", ("L", "T", "UP"))
     with pytest.raises(RecordError, match="direction not stated"):
         read_motion(tmp_path / "RSN2_X")

@@ -1,16 +1,8 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Sequences of ground motions: joined in time, with their own factors and time steps; command line and tables."""
-
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
-
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "py"))
-
 from timber_houses.motion import GroundMotion, MotionRequest, RecordError, joined, read_motion, write_csv
 from timber_houses.motion.processing import in_axes, interpolation_error, scaled, trim, turned
 from timber_houses.motion.sequence import common_step, following, with_then

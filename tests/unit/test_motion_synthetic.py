@@ -1,7 +1,6 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The synthetic Ojiya-like motion: targets for every seed used, timing, rest at the end, the shipped file."""
-
 import subprocess
 import sys
 from functools import lru_cache
@@ -9,13 +8,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "py"))
-
 from timber_houses import motion as gm
 from timber_houses.motion.synthetic import DEFAULT_SEED
 
+ROOT = Path(__file__).resolve().parents[2]
 SEEDS = [0, 1, *(pytest.param(seed, marks=pytest.mark.rare) for seed in range(2, 7))]
 PEAKS = {
     "PGA NS": (1147.0, lambda m: gm.pga(m, "ns")),

@@ -54,7 +54,7 @@ def test_pictures(made, tmp_path):
     assert [player.info(read)["joint_list"][0]["place"], player.breaks(read)] == ["joint", []]
     files = vtk.export(tmp_path / "vtk", read, every=10)
     assert [file.read_text().count("<DataSet") for file in files] == [4, 4, 31]
-    assert sheets.sheet(read, sheets.VIEWS[0], sheets.PRINT).axes
+    assert sheets.Stills(read).sheet(sheets.VIEWS[0], sheets.PRINT).artists
 
 
 def test_erased_and_replaced_bodies(tmp_path):

@@ -7,12 +7,10 @@ import sys
 from pathlib import Path
 
 import pytest
-
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "py"))
-
 import timber_houses
 import yade_timber
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 @pytest.fixture(scope="module")
@@ -39,9 +37,8 @@ def test_every_public_name_has_an_entry(pages):
 
 
 def test_guides_are_built(pages):
-    missing = [
-        page.stem for page in (ROOT / "docs").glob("*.md") if not (pages / "docs" / f"{page.stem}.html").is_file()
-    ]
+    missing = [page.stem
+               for page in (ROOT / "docs").glob("*.md") if not (pages / "docs" / f"{page.stem}.html").is_file()]
     assert missing == []
 
 

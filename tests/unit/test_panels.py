@@ -1,20 +1,12 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Wall sheets in the record and in every picture: plates with openings, torn when broken; nodes in the plan."""
-
-import sys
-from pathlib import Path
-
 import frames_sample
 import numpy as np
 import pytest
-
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "py"))
-
 from timber_houses.base import colors
 from timber_houses.house import build_house, load_house
-from timber_houses.pictures import camera, drawings, film, panels, player, sheets, stage
+from timber_houses.pictures import camera, drawings, panels, player, sheets, stage
 from timber_houses.pictures.figures import new_figure
 from timber_houses.pictures.raster import Window, shade
 from timber_houses.pictures.views import View
@@ -63,7 +55,7 @@ def test_halves_stay_at_their_columns(run):
     """After the fall to the north: both ends of the column's axis are within a layer of the plate that it carries."""
     shown = panels.states(run, -1)
     carried = [plate for plate in panels.plates(run) if plate.shows(shown)]
-    for plate, (solid, _) in zip(carried, sheets.sheathing(run, -1)):
+    for plate, solid in zip(carried, sheets.Stills(run).shot(-1).walls):
         ends = placed(np.array([[0, 0, -HEIGHT / 2], [0, 0, HEIGHT / 2]]), run.position[-1][plate.body],
                       run.orientation[-1][plate.body])
         away = np.linalg.norm(solid.vertices[:, None] - ends, axis=2).min(0)
@@ -74,8 +66,9 @@ def test_states_and_marks(run):
     """One mark of each damaged sheet, on its plate: off the opening, and off the gap of a torn one."""
     for time, state, marked in ((BEFORE, "whole", 0), (PARTLY, "partly", 1), (BROKEN, "broken", 1)):
         frame = run.at(time)
-        assert panels.states(run, frame)[0] == state and len(sheets.marks(run, frame)) == marked
-        assert sheets.snapshot(run, frame).states == {f"wall {state}", "wall whole"} | ({state} if marked else set())
+        shot = sheets.Stills(run).shot(frame)
+        assert panels.states(run, frame)[0] == state and len(shot.places) == len(shot.states) == marked
+        assert shot.explained == {f"wall {state}", "wall whole"} | ({state} if marked else set())
     body, anchor = panels.mark_anchors(run)
     for k, sheet in enumerate(run.joints.sheet[:6]):
         for torn in (False, True):
@@ -92,7 +85,7 @@ def inside(point, corners):
 
 def colour_at(picture, window, x, z):
     left, _, _, top = window.box
-    return picture[int((top - z) * window.density), int((x - left) * window.density)] / 255
+    return picture[int((top - z) * window.density), int((x - left) * window.density), :3] / 255
 
 
 def test_still_view_shows_sheet_opening_and_tear(run):
@@ -102,9 +95,9 @@ def test_still_view_shows_sheet_opening_and_tear(run):
     window = Window(SOUTH, (2, 8, -0.5, 4), 60)
     for time, state in ((BEFORE, "whole"), (run.time[-1], "broken")):
         frame = run.at(time)
-        shown = sheets.sheathing(run, frame)
-        south = [solid for solid, _ in shown if np.ptp(solid.vertices[:, 1]) < 1.6]
-        assert {kind for _, kind in shown} == {state}
+        shown = sheets.Stills(run).shot(frame).walls
+        south = [solid for solid in shown if np.ptp(solid.vertices[:, 1]) < 1.6]
+        assert {solid.kind for solid in shown} == {f"wall {state}"}
         if state == "whole":
             picture, _ = shade(south, window, 0.0, sky=1.0)
             below, hole = colour_at(picture, window, 4.2, 0.7), colour_at(picture, window, 5.0, 1.8)
@@ -115,14 +108,14 @@ def test_still_view_shows_sheet_opening_and_tear(run):
 
 def test_film_shows_the_same(run):
     """A picture with sheets differs from one without; torn plates are shown instead of whole ones."""
-    view = camera.look("space", film.corners(run), 16 / 9)
-    drawn = stage.Stage(run, (320, 180), view, camera.sun(film.corners(run)))
+    view = camera.look("space", stage.corners(run), 16 / 9)
+    drawn = stage.Stage(run, (320, 180), view, camera.sun(stage.corners(run)))
     for time, torn in ((BEFORE, False), (run.time[-1], True)):
         drawn.picture(time)
         assert len(drawn.sheathing.vertices) == sum(len(plate.vertices) for plate in drawn.plates if plate.torn is torn)
     bare = frames_sample.run()
-    view = camera.look("space", film.corners(bare), 16 / 9)
-    pictures = [np.asarray(stage.Stage(one, (320, 180), view, camera.sun(film.corners(bare))).picture(BEFORE), int)
+    view = camera.look("space", stage.corners(bare), 16 / 9)
+    pictures = [np.asarray(stage.Stage(one, (320, 180), view, camera.sun(stage.corners(bare))).picture(BEFORE), int)
                 for one in (run, bare)]
     assert (abs(pictures[0] - pictures[1]).max(axis=2) > 20).mean() > 0.03
 

@@ -76,11 +76,8 @@ def test_orientations_do_not_jump_between_frames():
     assert (np.sum(turns[1:] * turns[:-1], axis=2) >= -1e-9).all()
 
 
-@pytest.mark.parametrize(
-    "values", [np.zeros(
-        (0, 3)), np.zeros(
-            (1, 2)), np.array([[-1.0, 2**29], [2**29, -(2**29)]]),
-               np.arange(-7, 7)])
+@pytest.mark.parametrize("values", [np.zeros((0, 3)), np.zeros((1, 2)), np.array([[-1.0, 2**29], [2**29, -(2**29)]]),
+                                    np.arange(-7, 7)])
 def test_whole_numbers_come_out_exactly(values):
     info, arrays = unpack(pack({"x": 1}, {"before": ([3], 1), "values": (values, 1), "after": ([[4], [5]], 0.5)}))
     assert info["x"] == 1
@@ -156,11 +153,9 @@ def test_no_text_from_data_becomes_markup(tmp_path, text):
 def test_events_are_in_order():
     texts = [f"{event['time']:.2f} {event['text']}" for event in player.events(frames_sample.run())]
     assert [text[:24] for text in texts] == sorted(text[:24] for text in texts)
-    expected = [
-        *("1.01 the shaking begins", "drift passes 1/120: damage limit",
-          "2.10 first spring breaks: column-beam joint, storey 1, south side, tension 5.9 kN"),
-        *("drift passes 1/30: safety limit", "2.30 a storey drift N-S passes 1/10", "2.90 collapse"),
-    ]
+    expected = [*("1.01 the shaking begins", "drift passes 1/120: damage limit",
+                  "2.10 first spring breaks: column-beam joint, storey 1, south side, tension 5.9 kN"),
+                *("drift passes 1/30: safety limit", "2.30 a storey drift N-S passes 1/10", "2.90 collapse")]
     assert all(any(part in text for text in texts) for part in expected), texts
     assert key_times.onset(frames_sample.motion()) == pytest.approx(1.01)
 
@@ -197,10 +192,8 @@ def test_the_japanese_result_judges_all_structures():
     """A house that stands beyond the safety limit, an entrance that falls, a shed beyond the damage limit, an undamaged
     porch.
     """
-    others = {
-        "entrance": Structure(peak_drift=0.0, collapsed=True), "shed": Structure(peak_drift=0.01),
-        "porch": Structure(peak_drift=1e-3)
-    }
+    others = {"entrance": Structure(peak_drift=0.0, collapsed=True), "shed": Structure(peak_drift=0.01),
+              "porch": Structure(peak_drift=1e-3)}
     found = sample_summary(joints={"total": 8}, broken={"total": 7, "damaged_at_start": {"total": 1}}, peak_drift={
         "storey1": {"ns": 0.05, "ew": 0.01}
     }, structures=others, events=[Event(2.6, StructureFallen("entrance"))])
@@ -214,11 +207,9 @@ def test_the_japanese_result_has_all_warnings():
               "residual_drift": {"storey1": {"ns": 0.2, "ew": 0.01}}}
     assert "全壊（最後に傾いている）" in japanese.result(sample_summary(**drifts))
     found = sample_summary(**drifts, columns={"total": 90, "fallen": 1, "loose": 3}, still_moving=True,
-                           final_amplitude={"storey1": {"ns": 0.02, "ew": 0.0}}, snow=True,
-                           record={"onset_s": 18.8}, duration_s=15.0, structures={
-                               "entrance": Structure(broken=2, peak_drift=5e-4)
-                           }, events=[Event(12.0, ColumnsLost(1, 90)),
-                                      Event(13.5, SnowFallen("", "west", "roof"))])
+                           final_amplitude={"storey1": {"ns": 0.02, "ew": 0.0}}, snow=True, record={"onset_s": 18.8},
+                           duration_s=15.0, structures={"entrance": Structure(broken=2, peak_drift=5e-4)},
+                           events=[Event(12.0, ColumnsLost(1, 90)), Event(13.5, SnowFallen("", "west", "roof"))])
     parts = ("終了時の変形角 1/5", "なお ±1/50（南北）で揺れている", "柱 90 本のうち1 本が倒れた、3 本が外れた（12.0 秒から）", "雪は 13.5 秒から落下",
              "強い揺れ（18.8 秒）の前に計算を終了", "玄関は補修可能（最大層間変形角 1/1000 未満）")
     assert [part for part in parts if part not in japanese.result(found)] == [], japanese.result(found)

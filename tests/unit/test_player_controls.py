@@ -206,9 +206,8 @@ def test_the_card_shows_largest_forces_and_uplift(driver, tmp_path):
             assert [card_of(driver, place) for place in (foot, head, column, roof)] == [[""]] * 4
     assert card_of(driver, foot) == ["largest pull 1.3 kN, shear 0.7 kN", "largest uplift of the column's foot 2.9 mm"]
     assert card_of(driver, head) == ["largest pull 8.8 kN, shear 0.1 kN"]
-    assert card_of(driver, column) == [
-        "its joints: largest pull 8.8 kN, shear 0.5 kN", "largest uplift of the column's foot 31 mm"
-    ]
+    assert card_of(driver, column) == ["its joints: largest pull 8.8 kN, shear 0.5 kN",
+                                       "largest uplift of the column's foot 31 mm"]
     assert card_of(driver, roof) == ["its joints: largest pull 8.8 kN, shear 0.4 kN"]
     ask(driver, "player.speak('ja')")
     assert card_of(driver, foot) == ["最大引張 1.3 kN、せん断 0.7 kN", "柱脚の最大浮き上がり 2.9 mm"]

@@ -10,10 +10,8 @@ from timber_houses.recording.events import Event, StructureFallen
 
 pytest_plugins = ["player_fixtures"]
 
-HOSTILE = [
-    "".join(("<img src=x onerror=\"document.title='RUN'\">", "</script><script>document.title='RUN'</script>",
-             "'\"><svg/onload=document.title='RUN'>", "$\\frac{$")), "__proto__"
-]
+HOSTILE = ["".join(("<img src=x onerror=\"document.title='RUN'\">", "</script><script>document.title='RUN'</script>",
+                    "'\"><svg/onload=document.title='RUN'>", "$\\frac{$")), "__proto__"]
 SMALL = 320, 240
 """Size of the page: its text counts, not its picture. [pixel]"""
 

@@ -2,16 +2,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Pushover curves beside the sum of the envelopes of the wall types. Tolerance: shears are rounded to 1 N. Names of
 modes."""
-
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
-
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "py"))
-
 from test_house_plan import L_WALLS, house_file, write
 from timber_houses.house import build_house, diagnose, load_house
 from timber_houses.base.gravity import GRAVITY
@@ -43,9 +35,8 @@ def test_secant_periods():
     for axis, direction in enumerate(("ew", "ns")):
         masses, stiffness = [], []
         for storey in (1, 2):
-            own = [e.mass * (0.5 if e.kind in ("column", "brace") else 1.0) for e in model.elements
-                   if e.group == "main" and not e.fixed
-                   and (e.storey == storey or e.kind in ("column", "brace") and e.storey == storey + 1)]
+            own = [e.mass * (0.5 if e.kind in ("column", "brace") else 1.0) for e in model.elements if e.group == "main"
+                   and not e.fixed and (e.storey == storey or e.kind in ("column", "brace") and e.storey == storey + 1)]
             masses.append(sum(own))
         for storey, above in ((1, sum(masses)), (2, masses[1])):
             low, high = model.storey_levels["main"][storey]

@@ -17,6 +17,7 @@ from timber_houses.base.errors import RunError
 from timber_houses.base.table import read_rows
 from timber_houses.pictures import figures, player, quantities, report, report_pictures
 from timber_houses.pictures.key_times import LAG, last_shown
+from timber_houses.pictures.sheets import Stills
 from timber_houses.recording.failures import first_failures
 from timber_houses.recording.events import Collapse, Event, SnowFallen
 from timber_houses.recording.summary import Summary
@@ -32,10 +33,8 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 def command(out, *options):
-    words = [
-        "yade", "-n", "-x", ROOT / "scripts" / "modelB1_quake.py", "--start", "17.5", "--dt", "5e-4", "--out", out,
-        "--no-views", "--quiet", *options
-    ]
+    words = ["yade", "-n", "-x", ROOT / "scripts" / "modelB1_quake.py", "--start", "17.5", "--dt", "5e-4", "--out", out,
+             "--no-views", "--quiet", *options]
     done = subprocess.run(list(map(str, words)), capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
 
@@ -160,14 +159,11 @@ def test_report_of_other_folders(folder, tmp_path):
         report.write(tmp_path)
 
 
-@pytest.mark.parametrize(
-    "options, command",
-    [
-        (scripted("modelC2_quake", "C2", True, scale=1.5, dt=2e-4), "scripts/modelC2_quake.py --scale=1.5 --dt=0.0002"),
-        (RunOptions(house="my house.yaml", quake=True, snow=1.0,
-                    report=True), "scripts/house.py 'my house.yaml' --quake --snow=1.0"),
-    ],
-)
+@pytest.mark.parametrize("options, command", [
+    (scripted("modelC2_quake", "C2", True, scale=1.5, dt=2e-4), "scripts/modelC2_quake.py --scale=1.5 --dt=0.0002"),
+    (RunOptions(house="my house.yaml", quake=True, snow=1.0,
+                report=True), "scripts/house.py 'my house.yaml' --quake --snow=1.0"),
+])
 def test_command_that_repeats_the_run(options, command):
     assert report.command(options.decisive()) == f"yade -n -x {command}"
 
@@ -180,7 +176,7 @@ def test_hostile_names_are_text(folder):
     """Names from files cannot put markup into the page."""
     run = load(folder / "frames.h5")
     run.joints.name = ["<script>alert(1)</script>|b"] * len(run.joints.name)
-    page = report.page(run)
+    page = report.page(Stills(run))
     assert "<script" not in page and "&lt;script" in page
 
 

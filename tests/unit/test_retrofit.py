@@ -4,7 +4,6 @@
 overview.
 """
 import math
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +16,6 @@ from timber_houses.study.retrofit import motions, overview, race
 from timber_houses.study.retrofit import runs as rounds
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.append(str(ROOT / "scripts" / "study"))
 
 
 # --- candidates and motions -------------------------------------------------------------------------------------------
@@ -195,10 +193,8 @@ def test_rounds():
 
 
 def run(drift, collapsed=False):
-    return {
-        "peak_drift": drift, "collapsed": collapsed, "status": "done", "wall_s": 1.0, "run": f"run{drift:g}",
-        "error": None
-    }
+    return {"peak_drift": drift, "collapsed": collapsed, "status": "done", "wall_s": 1.0, "run": f"run{drift:g}",
+            "error": None}
 
 
 def test_a_collapse_counts_as_the_largest_drift():

@@ -1,16 +1,11 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The lumped-mass model and the graded houses of scripts/validation, against closed forms and sums by hand."""
-import sys
-from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from scipy.signal import lsim
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts" / "validation"))
-
 import graded_changes as changes
 import graded_houses as graded
 import kobe_like

@@ -11,10 +11,8 @@ from yade_timber.scene.engines import find_engine
 
 NAN, INF = math.nan, math.inf
 PAIR = {"mass": 1, "friction": 0.5, "shearRatio": 0.4, "dampingRatio": 1, "overlapLimit": 0.01}
-PARAMETERS = {
-    phys: set(getattr(yw, phys)().dict()) - set(yw.ManifoldPhys().dict())
-    for _, phys, _ in compiled.contact_laws()
-}
+PARAMETERS = {phys: set(getattr(yw, phys)().dict()) - set(yw.ManifoldPhys().dict()) for _, phys,
+              _ in compiled.contact_laws()}
 """Parameters of each contact law."""
 JOINT = {"anchors1": [(0, 0, 0)], "anchors2": [(0, 0, 0)], "kn": 1, "ks": 1, "strength": 1}
 SLIP = JOINT | {"law": "slip", "frictionShare": 0.5, "softeningStretch": 2, "ultimateStretch": 3}

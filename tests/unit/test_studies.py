@@ -3,17 +3,9 @@
 """Evaluation of finished runs by the fragility study: intervals, fitted curves, bands, picture. The batch tests cover
 the runs.
 """
-
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 from scipy import stats
-
-ROOT = Path(__file__).resolve().parents[2]
-sys.path += [str(ROOT / "py"), str(ROOT / "scripts" / "study")]
-
 import fragility
 
 

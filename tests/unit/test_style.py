@@ -18,10 +18,8 @@ from timber_houses.motion import default_motion
 from timber_houses.pictures import curves, drawings, figures, fonts, motion_sheet, report, report_pictures, sheets
 from timber_houses.pictures.views import FRONT
 
-OTHER_TEXTS = {
-    "white": "black", "black": "white", "DejaVu Sans": "DejaVu Serif", "sans-serif": "serif", "normal": "italic",
-    "left": "right"
-}
+OTHER_TEXTS = {"white": "black", "black": "white", "DejaVu Sans": "DejaVu Serif", "sans-serif": "serif",
+               "normal": "italic", "left": "right"}
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = ROOT / "py" / "timber_houses"
 RECORD = ROOT / "scripts" / "show" / "show_record.py"
@@ -64,8 +62,8 @@ def pages():
     """{name: figure} of the pictures of a run, a house and a motion."""
     run = frames()
     return {
-        "sheet": sheets.sheet(run, FRONT, sheets.SCREEN),
-        "end": sheets.both_views(run, -1, 50),
+        "sheet": sheets.Stills(run).sheet(FRONT, sheets.SCREEN),
+        "end": sheets.Stills(run).both_views(-1, 50),
         "curves": curves.page(run, 50),
         "house": drawings.page(build_house(load_house("C2")), 50),
         "motion": motion_sheet.page(default_motion(), 0.05, 50),

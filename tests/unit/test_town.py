@@ -9,7 +9,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-
 from timber_houses.motion import GroundMotion, write_csv
 from timber_houses.pictures import key_times
 from timber_houses.recording import frames
@@ -146,18 +145,15 @@ def test_joints_and_wall_sheets_of_the_town_are_those_of_the_summaries(town):
     assert row["lot"] == "walled" and int(row["wall sheets"]) == 6  # three bays in two storeys
 
 
-@pytest.mark.parametrize(
-    "text, options, message",
-    [
-        (TOWN.replace("x: 20", "x: 3"), [],
-         "error: town.yaml:4: town.lots.far: the house overlaps that of lot near: move it by x or y, or turn it"),
-        (TOWN, ["--export", "x.json"], "error: --export: not for towns; run a house with scripts/house.py"),
-        (TOWN, ["--report"], "error: --report: not for towns; run a house with scripts/house.py"),
-        (TOWN.replace("velocity: 100", "velocity: 0"), [],
-         "error: town.yaml:1: town.wave.velocity: must be a number in [50, 20000] m/s, got 0"),
-        (TOWN, ["--scale", "2"], "error: --scale: this run has no earthquake; add --quake or --record FILE"),
-    ],
-)
+@pytest.mark.parametrize("text, options, message", [
+    (TOWN.replace("x: 20", "x: 3"), [],
+     "error: town.yaml:4: town.lots.far: the house overlaps that of lot near: move it by x or y, or turn it"),
+    (TOWN, ["--export", "x.json"], "error: --export: not for towns; run a house with scripts/house.py"),
+    (TOWN, ["--report"], "error: --report: not for towns; run a house with scripts/house.py"),
+    (TOWN.replace("velocity: 100", "velocity: 0"), [],
+     "error: town.yaml:1: town.wave.velocity: must be a number in [50, 20000] m/s, got 0"),
+    (TOWN, ["--scale", "2"], "error: --scale: this run has no earthquake; add --quake or --record FILE"),
+])
 def test_misuse(tmp_path, text, options, message):
     write_town(tmp_path, text)
     done = run("town", tmp_path / "town.yaml", *SHORT, *options, "--duration", 0.1, "--out", tmp_path / "out")

@@ -5,7 +5,6 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-
 from summaries import sample_summary
 from test_house_plan import house_file
 from timber_houses.house import HouseError, build_house, load_house, load_town
@@ -131,25 +130,22 @@ def test_overlapping_houses_are_refused(town):
         check_places([first, place(width + 0.01, rotation=45)])
 
 
-@pytest.mark.parametrize(
-    "old, new, message",
-    [
-        ("velocity: 500", "velocity: 5",
-         r"town.yaml:2: town.wave.velocity: must be a number in \[50, 20000\] m/s, got 5$"),
-        ("direction: 90", "direction: north",
-         r"town.yaml:2: town.wave.direction: expected a number in \[0, 360\] degrees, got 'north'$"),
-        (", direction: 90", "", r"town.yaml:2: town.wave: key 'direction' is missing$"),
-        ("x: -100", "x: 1e6",
-         r"town.yaml:4: town.lots.west.x: must be a number in \[-20000, 20000\] m, got 1000000.0; in m: "),
-        ("house: A", "house: Z", r"town.yaml:4: town.lots.west.house: unknown house 'Z': .*known: A, B"),
-        ("house: A, ", "", r"town.yaml:4: town.lots.west: key 'house' is missing$"),
-        ("rotation: 90", "turn: 90", r"town.yaml:5: town.lots.east: unknown key 'turn'"),
-        ("snow: 0.5", "snow: 1e-9", r"town.yaml:5: town.lots.east.snow: must be 0 or in \[0.001, 6\] m, got 1e-09$"),
-        ("  west:", "  ../west:", r"town.yaml:4: town.lots: '../west' is not a valid name"),
-        ("  east:", "  west:", r"town.yaml:5: key 'west' is given twice \(first in line 4\); remove one$"),
-        ("lots:", "houses:", r"town.yaml:3: town: unknown key 'houses', known: name, wave, lots$"),
-    ],
-)
+@pytest.mark.parametrize("old, new, message", [
+    ("velocity: 500", "velocity: 5",
+     r"town.yaml:2: town.wave.velocity: must be a number in \[50, 20000\] m/s, got 5$"),
+    ("direction: 90", "direction: north",
+     r"town.yaml:2: town.wave.direction: expected a number in \[0, 360\] degrees, got 'north'$"),
+    (", direction: 90", "", r"town.yaml:2: town.wave: key 'direction' is missing$"),
+    ("x: -100", "x: 1e6",
+     r"town.yaml:4: town.lots.west.x: must be a number in \[-20000, 20000\] m, got 1000000.0; in m: "),
+    ("house: A", "house: Z", r"town.yaml:4: town.lots.west.house: unknown house 'Z': .*known: A, B"),
+    ("house: A, ", "", r"town.yaml:4: town.lots.west: key 'house' is missing$"),
+    ("rotation: 90", "turn: 90", r"town.yaml:5: town.lots.east: unknown key 'turn'"),
+    ("snow: 0.5", "snow: 1e-9", r"town.yaml:5: town.lots.east.snow: must be 0 or in \[0.001, 6\] m, got 1e-09$"),
+    ("  west:", "  ../west:", r"town.yaml:4: town.lots: '../west' is not a valid name"),
+    ("  east:", "  west:", r"town.yaml:5: key 'west' is given twice \(first in line 4\); remove one$"),
+    ("lots:", "houses:", r"town.yaml:3: town: unknown key 'houses', known: name, wave, lots$"),
+])
 def test_misuse_is_one_line_with_file_and_line(town, old, new, message):
     with pytest.raises(HouseError, match=message) as problem:
         load_town(town(GOOD.replace(old, new)))

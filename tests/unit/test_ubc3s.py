@@ -2,21 +2,17 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The walls of UBC3S beside PB3D's, whose parameters are fitted to wall tests (docs/validation/ubc3s_walls.csv)."""
 import csv
-import sys
 from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
 import pytest
-
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts" / "validation"))
-
 from house_storeys import wall_joints
 from wall_spring import WallSpring
 from timber_houses.house import build_house, load_house
 from timber_houses.house.wall_types import RELOAD_TARGET, steepest
 
+ROOT = Path(__file__).resolve().parents[2]
 CLEAR = 2.4
 """Height of the walls. [m]"""
 LENGTHS = {"a": 0.91, "b": 1.82}

@@ -1,18 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """scripts/validation/ubc3s.py: Rayleigh damping of PB3D, a free body on the ground, stored drifts."""
 import csv
-import sys
 from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
-
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts" / "validation"))
-
 import ubc3s
 
+ROOT = Path(__file__).resolve().parents[2]
 VELOCITY, SPIN = (0.3, -0.2, 0.1), (0.4, 0.5, -0.6)
 """[m/s; rad/s]"""
 

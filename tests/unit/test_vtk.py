@@ -20,7 +20,6 @@ from timber_houses.pictures import panels, vtk
 from timber_houses.recording import frames as recorded
 from timber_houses.recording.record import placed
 
-
 SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "show" / "export_vtk.py"
 
 
@@ -65,9 +64,8 @@ def test_times(folder):
 def test_elements(folder):
     made, (_, data) = frames(), series(folder, "elements")[-1]
     assert np.allclose(points(data)[16:], made.corners(-1, 2), atol=1e-5) and data.GetNumberOfPolys() == 18
-    assert np.allclose(
-        values(data.GetPointData(), "displacement")[16:],
-        made.corners(-1, 2) - made.corners_at_start(2), atol=1e-5)
+    assert np.allclose(values(data.GetPointData(), "displacement")[16:], made.corners(-1, 2) - made.corners_at_start(2),
+                       atol=1e-5)
     assert np.allclose(values(data.GetPointData(), "displacement")[:16], 0)
     cell = [data.GetCell(13).GetPointId(k) - 16 for k in range(4)]
     assert cell == FACES[1] and list(values(data.GetCellData(), "element")) == [0] * 6 + [1] * 6 + [2] * 6
@@ -99,9 +97,8 @@ def test_joints(folder):
     made, found = frames(), series(folder, "joints")
     first, last = points(found[0][1]), points(found[-1][1])
     assert np.allclose(first[:3], first[3:], atol=1e-6) and np.allclose(last[:3], made.joint_places(-1), atol=1e-6)
-    assert np.allclose(
-        last[4], np.array([np.cos(0.3) * 0.5 - np.sin(0.3) * 0.5 + 1, 0, 1.5 - np.sin(0.3) * 0.5 - np.cos(0.3) * 0.5]),
-        atol=1e-5)
+    assert np.allclose(last[4], np.array([np.cos(0.3) * 0.5 - np.sin(0.3) * 0.5 + 1, 0,
+                                          1.5 - np.sin(0.3) * 0.5 - np.cos(0.3) * 0.5]), atol=1e-5)
     data = found[-1][1]
     assert list(values(data.GetPointData(), "state")) == [3, 2, 1] * 2
     assert np.allclose(values(data.GetPointData(), "load")[:3], made.load[-1])

@@ -25,10 +25,8 @@ def test_option():
     """The option has precedence over the house file; the two levels' strengths are 2.8 and 1.5 times the allowable
     shear.
     """
-    found = {
-        level: planned(cli.read_house(["house.py", "tiled_house", *(() if level is None else ("--walls", level))]))
-        for level in (None, "mean", "design")
-    }
+    found = {level: planned(cli.read_house(["house.py", "tiled_house", *(() if level is None else ("--walls", level))]))
+             for level in (None, "mean", "design")}
     assert strongest(found[None]) == strongest(found["mean"]) == pytest.approx(2.8 / 1.5 * strongest(found["design"]))
     with pytest.raises(RunError, match="design"):
         cli.read_house(["house.py", "tiled_house", "--walls", "weak"])
@@ -51,10 +49,8 @@ def test_report_runs_both_levels(tmp_path):
     """
     for house, walls in (("tiled_house", "design"), ("l_house", None)):
         out = tmp_path / house
-        words = [
-            "yade", "-n", "-x", ROOT / "scripts" / "house.py", house, "--duration", "0.01", "--report", "--no-views",
-            "--quiet", "--out", out
-        ]
+        words = ["yade", "-n", "-x", ROOT / "scripts" / "house.py", house, "--duration", "0.01", "--report",
+                 "--no-views", "--quiet", "--out", out]
         done = subprocess.run(list(map(str, words)), capture_output=True, text=True)
         assert done.returncode == 0 and (out / "report.html").exists(), done.stdout + done.stderr
         found = json.loads((out / "summary.json").read_text())["walls"]

@@ -1,16 +1,9 @@
 # runner: python
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Required wall quantity beside published worked examples and sums by hand, for both rules."""
-
-import sys
 from math import ceil
-from pathlib import Path
 
 import pytest
-
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "py"))
-
 from test_house_plan import L_WALLS, house_file, write
 from timber_houses.house import build_house, diagnose, load_house
 from timber_houses.house.wall_quantity import (RULES, Loads, Storeys, carried, required_1981, required_2025,

@@ -14,8 +14,15 @@ KINDS = {  # of elements; RGB in 0..1
 }
 SHEETS = {"whole": (0.86, 0.88, 0.80), "partly": (0.95, 0.76, 0.36), "broken": (0.90, 0.52, 0.30)}
 """Of wall sheets, by state."""
-OTHER = (0.7, 0.7, 0.7)  # for kinds of elements without a colour of their own
+OTHER = (0.7, 0.7, 0.7)
+"""For kinds of elements without a colour of their own."""
 BLUE, ORANGE, GREEN, SKY_BLUE, AMBER, PURPLE, YELLOW, GREY, INDIGO, WINE = (
     "#0072B2", "#D55E00", "#009E73", "#56B4E9", "#E69F00", "#CC79A7", "#F0E442", "#999999", "#332288",
     "#882255")
-DIRECTIONS = {"ns": BLUE, "ew": ORANGE, "ud": GREY}  # N-S, E-W, up-down
+DIRECTIONS = {"ns": BLUE, "ew": ORANGE, "ud": GREY}
+"""N-S, E-W, up-down."""
+
+
+def of(kind):
+    """RGB of a kind of elements."""
+    return KINDS.get(kind, OTHER)

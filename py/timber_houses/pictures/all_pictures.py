@@ -15,13 +15,15 @@ NAMES = [f"{END}.png",
 """Files that `write` makes."""
 
 
-def write(folder, path=None, pdf=False):
-    """Write the pictures of a run into a folder; returns their paths. path: of the frames; pdf: PDFs, too.
+def write(folder, path=None, pdf=False, views=True, page=False):
+    """Write pictures and player (views) and the report (page) of a run into a folder; returns their paths.
 
-    Without OpenGL those that need none are written, with a note. Raises RunError when the frames cannot be read,
-    OSError when a picture cannot be written.
+    path: of the frames; pdf: PDFs, too. Without OpenGL those that need none are written, with a note. Raises RunError
+    when the frames cannot be read, OSError when a picture cannot be written.
     """
-    from . import figures, player, sheets, town_page
+    if not (views or page):
+        return []
+    from . import figures, player, report, sheets, town_page  # here: matplotlib takes 0.3 s
     from .renderer import NoOpenGL
 
     path, endings = path or folder / frames.NAME, ("png", "pdf") if pdf else ("png",)
@@ -29,36 +31,27 @@ def write(folder, path=None, pdf=False):
     if isinstance(recorded.summary, TownSummary):
         return [*figures.save(town_page.figure(recorded), (folder / MAP).with_suffix("")),
                 town_page.write(folder, recorded), player.make([(path, recorded)], folder / PLAYER)]
-    pages = [(END, ("png",), partial(sheets.both_views, recorded, -1, sheets.END_DPI)),
-             *((name, endings, page) for name, page in _pages(recorded, path.parent))]
-    written, left_out = [], {}
-    for name, kinds, page in pages:
+    written, left_out, stills = [], {}, sheets.Stills(recorded)
+    for name, draw in _pages(stills, path.parent) if views else ():
         try:
-            written += figures.save(page(), folder / name, kinds)
+            written += figures.save(draw(), folder / name, endings if name != END else ("png",))
         except NoOpenGL as problem:
             left_out[name] = problem
     with noted():
         if left_out:
             warnings.warn(f"without {', '.join(left_out)}: {list(left_out.values())[-1]}")
-    return [*written, player.make([(path, recorded)], folder / PLAYER)]
+    return [*written, *([player.make([(path, recorded)], folder / PLAYER)] if views else []),
+            *(report.write(folder, stills) if page else [])]
 
 
-def draw(folder, views, page):
-    """Write pictures and player (views) and the report (page) of a run; returns paths. Raises RunError, OSError."""
-    written = write(folder) if views else []
-    if page:
-        from . import report  # here: matplotlib takes 0.3 s
-
-        written += report.write(folder)
-    return written
-
-
-def _pages(recorded, folder):
+def _pages(stills, folder):
     """(name, function that draws the figure) of each page. folder: of the run"""
     from . import bands, curves, quantities, sheets, views
 
+    recorded = stills.frames
+    yield END, partial(stills.both_views, -1, sheets.END_DPI)
     for view in views.VIEWS:
-        yield view.name, partial(sheets.sheet, recorded, view, sheets.PRINT)
+        yield view.name, partial(stills.sheet, view, sheets.PRINT)
     if recorded.history and recorded.history.samples:
         yield CURVES, partial(curves.page, recorded, curves.DPI)
         if recorded.peaks is not None:

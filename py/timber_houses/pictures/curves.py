@@ -3,13 +3,12 @@
 from itertools import cycle
 
 import numpy as np
-from yade_timber.energy_terms import ELASTIC
+from yade_timber.energy_terms import DISSIPATED, ELASTIC
 
 from ..base import colors
 from ..recording.verdict import TILT
 from ..recording.walls import of_walls, sheet_states
 from ..text.english import DRIFT_LINES
-from .energy import TERMS
 from .figures import A4, drawable, footer, heading, heading_height, new_figure
 from .key_times import first_shown, last_shown
 from .provenance import provenance
@@ -26,6 +25,12 @@ LABEL_PLACE = -0.108
 STOREYS = ((colors.BLUE, "-"), (colors.ORANGE, "--"), (colors.GREEN, "-."))
 JOINT_KINDS = {"column_beam": colors.ORANGE, "brace_beam": colors.BLUE, "brace_column": colors.SKY_BLUE,
                "floor_beam": colors.AMBER, "roof_beam": colors.PURPLE, "roof_roof": colors.GREEN}
+DISSIPATION = dict(zip(DISSIPATED, (
+    ("contact dashpots,\nnormal", colors.SKY_BLUE), ("contact dashpots,\ntangential", colors.BLUE),
+    ("friction", colors.AMBER), ("crushed timber", colors.WINE), ("broken joints", colors.ORANGE),
+    ("contacts lost\nunder load", colors.PURPLE), ("joint dashpots", colors.INDIGO), ("yielding joints", colors.GREY)),
+    strict=True))
+"""{dissipated term: (label, colour)}"""
 
 
 @default_style()
@@ -129,12 +134,10 @@ def draw_breaks(axis, frames, states):
 def draw_energy(axis, history):
     """Energy input and its parts, without dissipated terms that are zero; the remainder is printed above."""
     supplied = history.energy("ground_motion") - history.energy("gravity")
-    dissipated = [term for term in TERMS
-                  if f"{term.name} [J]" in history.columns and history.energy(term.name).any()]
-    parts = [history.energy(term.name) for term in dissipated]
-    parts += [sum(map(history.energy, ELASTIC)), history.energy("kinetic")]
-    names = [*(term.label for term in dissipated), "elastic", "kinetic"]
-    fills = [*(term.color for term in dissipated), colors.GREEN, colors.YELLOW]
+    shown = {name: look for name, look in DISSIPATION.items()
+             if f"{name} [J]" in history.columns and history.energy(name).any()}
+    parts = [*map(history.energy, shown), sum(map(history.energy, ELASTIC)), history.energy("kinetic")]
+    names, fills = zip(*shown.values(), ("elastic", colors.GREEN), ("kinetic", colors.YELLOW))
     axis.stackplot(history.time, [part / 1e3 for part in parts], labels=names, colors=fills, lw=0)
     axis.plot(history.time, supplied / 1e3, "k--", lw=1, label="input: ground\nmotion and gravity")
     residual = abs(sum(parts) - supplied).max()

@@ -3,25 +3,25 @@
 from functools import partial
 
 import numpy as np
-from matplotlib.lines import Line2D
+from matplotlib.lines import TICKLEFT, Line2D
 from matplotlib.patches import Ellipse, Patch, Polygon, Rectangle
 
 from ..base import colors
 from ..house import weigh
 from ..house.weight import sentence
-from .figures import A4, heading, new_figure, save, stem_and_endings
+from .figures import A4, TITLE_PAD, Panel, heading, new_figure, save, stem_and_endings
 from .panels import plates_as_built
 from .raster import Window, even_density, front_of, shade
 from .report_pictures import THICK, wedge
 from .style import default_style
-from .views import (FRONT, INK, SIDE, Snapshot, Solid, View, box_of, draw_ends, draw_view, kind_entries,
-                    sheet_entries)
+from .views import (FRONT, INK, SIDE, WALL_NAMES, Snapshot, Solid, View, box_of, draw_ends, draw_view, kind_entries,
+                    wall_entries, wall_solids)
 
 WIDTH, HEIGHT, DPI = A4[1], A4[0], 300
 """Of the page [inch], and of its shaded parts [1/inch]."""
 OBLIQUE = View("space", "In space, from the north-east (roof and walls half transparent)", (-0.64, 0.768, 0.0),
                (0.704, 0.587, 0.4), "", "", (-0.307, -0.256, 0.917))
-TRANSPARENT = ("roof", "snow", "sheet")
+TRANSPARENT = ("roof", "snow", *WALL_NAMES)
 OPACITY = 0.6
 """Of these kinds of elements. [-]"""
 CELLS = ((0.06, 0.49, 0.42, 0.36), (0.55, 0.49, 0.42, 0.36), (0.06, 0.105, 0.42, 0.335), (0.55, 0.105, 0.42, 0.335))
@@ -46,13 +46,14 @@ def page(model, dpi):
     """Figure with the drawings of a HouseModel. dpi: of the shaded parts [1/inch]"""
     figure = new_figure(WIDTH, HEIGHT, dpi)
     solids = [solid(e) for e in model.elements]
-    space, front, side, plan = (figure.add_axes(cell) for cell in CELLS)
-    draw_space(space, [*solids, *(plate for plate, _ in sheathing(model))], dpi)
-    for ax, view in ((front, FRONT), (side, SIDE)):
-        draw_elevation(ax, view, solids, model, dpi)
-    draw_plan(plan, model)
+    space, front, side, plan = CELLS
+    walls = sheathing(model)
+    draw_space(figure.add_axes(space), [*solids, *walls], dpi)
+    for cell, view in ((front, FRONT), (side, SIDE)):
+        draw_elevation(figure, cell, Snapshot(solids, walls), view, model)
+    draw_plan(figure.add_axes(plan), model)
     heading(figure, f"House {model.name}", describe(model))
-    legend(figure, solids, model)
+    legend(figure, solids, walls, model)
     return figure
 
 
@@ -61,14 +62,13 @@ def solid(element):
     faces = [face.points for face in element.solid.faces]
     starts = np.cumsum([0, *map(len, faces)])
     return Solid(element.kind, np.vstack(faces), [list(range(a, b)) for a, b in zip(starts, starts[1:])],
-                 colors.KINDS.get(element.kind, colors.OTHER))
+                 colors.of(element.kind))
 
 
 def sheathing(model):
-    """(Solid, state) of the plates of wall sheets as built."""
+    """Solids of the plates of wall sheets as built."""
     plates, states = plates_as_built(model)
-    return [(Solid("sheet", plate.vertices, plate.faces, colors.SHEETS[states[plate.sheet]]), states[plate.sheet])
-            for plate in plates if plate.shows(states)]
+    return wall_solids([plate for plate in plates if plate.shows(states)], states)
 
 
 def describe(model):
@@ -83,19 +83,9 @@ def describe(model):
             f" {model.joints_text}{snow}\n{sentence(weigh(model))}")
 
 
-def density(ax, box, dpi):
-    """Pixels per metre at which a box fills axes, a multiple of 2."""
-    cell = ax.get_position()
-    return even_density(dpi * min(cell.width * WIDTH / (box[1] - box[0]), cell.height * HEIGHT / (box[3] - box[2])))
-
-
-def fit(ax, window, dpi):
-    """Resize axes about their centre to the whole pixels of a Window."""
-    cell, (left, right, bottom, top) = ax.get_position(), window.box
-    width, height = (right - left) * window.density / dpi / WIDTH, (top - bottom) * window.density / dpi / HEIGHT
-    x, y = ((cell.x0 + cell.x1 - width) / 2, (cell.y0 + cell.y1 - height) / 2)
-    x, y = round(x * WIDTH * dpi) / (WIDTH * dpi), round(y * HEIGHT * dpi) / (HEIGHT * dpi)
-    ax.set_position([x, y, width, height])
+def density(cell, box, dpi):
+    """Pixels per metre at which a box fills a cell of CELLS, a multiple of 2."""
+    return even_density(dpi * min(cell[2] * WIDTH / (box[1] - box[0]), cell[3] * HEIGHT / (box[3] - box[2])))
 
 
 def draw_space(ax, solids, dpi):
@@ -103,37 +93,38 @@ def draw_space(ax, solids, dpi):
     shown = np.vstack([s.vertices for s in solids if s.kind != "ground"])
     across, up = shown @ OBLIQUE.right, shown @ OBLIQUE.up
     box = across.min() - 0.3, across.max() + 0.3, up.min() - 0.3, up.max() + 0.3
-    window, front = Window(OBLIQUE, box, density(ax, box, dpi)), front_of(solids, OBLIQUE)
+    window, front = Window(OBLIQUE, box, density(CELLS[0], box, dpi)), front_of(solids, OBLIQUE)
     whole, frame = (shade([s for s in solids if s.kind not in hidden], window, front, sky=1.0)[0]
                     for hidden in (("ground",), ("ground", *TRANSPARENT)))
-    ax.imshow(np.rint(OPACITY * whole + (1 - OPACITY) * frame).astype(np.uint8), extent=box,
+    ax.imshow(np.rint(OPACITY * whole + (1 - OPACITY) * frame).astype(np.uint8)[..., :3], extent=box,
               interpolation="antialiased", aspect="equal")
-    ax.set_title(OBLIQUE.title, fontsize=9, loc="left")
+    ax.set_title(OBLIQUE.title, fontsize=9, loc="left", y=1)
     ax.axis("off")
 
 
-def draw_elevation(ax, view, solids, model, dpi):
-    """Front or side view with the heights of floors and ridge."""
-    box = box_of(view, solids, [])
-    window = Window(view, box, density(ax, box, dpi))
-    fit(ax, window, dpi)
-    draw_view(ax, window, Snapshot(solids, sheathing=sheathing(model)), front_of(solids, view))
-    ax.set_title(view.title, fontsize=9, loc="left")
-    draw_ends(ax, view, 8)
+def draw_elevation(figure, cell, snapshot, view, model):
+    """Front or side view in the middle of a cell of CELLS, with the heights of floors and ridge."""
+    box = box_of(view, snapshot.solids, [])
+    window = Window(view, box, density(cell, box, figure.dpi))
+    place, room = np.multiply(cell, (WIDTH, HEIGHT, WIDTH, HEIGHT)).reshape(2, 2)
+    panel = Panel(figure, place + (room - np.divide(window.size, figure.dpi)) / 2, window)
+    draw_view(panel, snapshot, front_of(snapshot.solids, view))
+    panel.note(view.title, (0, 1), (0, TITLE_PAD), fontsize=9)
+    draw_ends(panel, 8)
     levels = (z for storeys in model.storey_levels.values() for pair in storeys.values() for z in pair)
-    heights = sorted({0.0, *levels, max(e.vertices[:, 2].max() for e in model.elements)})
-    draw_heights(ax, heights, (box[3] - box[2]) / (ax.get_position().height * HEIGHT))
-    frame_damage(ax, [(np.dot(j.centre, view.right), j.centre[2]) for j in model.joints if j.broken])
+    draw_heights(panel, sorted({0.0, *levels, max(e.vertices[:, 2].max() for e in model.elements)}))
+    frame_damage(panel, [(np.dot(j.centre, view.right), j.centre[2]) for j in model.joints if j.broken])
 
 
-def draw_heights(ax, heights, scale):
-    """Ticks at heights [m] with labels to the left, moved upwards where they would overlap. scale: metres per inch"""
-    ax.set_yticks(heights, [""] * len(heights))
-    lowest = -np.inf
+def draw_heights(panel, heights):
+    """Ticks at heights [m] with labels to the left, moved upwards where they would overlap."""
+    left, lowest, gap = panel.window.box[0], -np.inf, LABEL_GAP * panel.figure.dpi / panel.window.density
+    panel.plot([left] * len(heights), heights, linestyle="none", color="black", marker=TICKLEFT, markersize=3.5,
+               markeredgewidth=0.8, clip_on=False)
     for z in heights:
-        lowest = max(lowest + LABEL_GAP * scale, z)
-        ax.annotate(f"{z:.2f} m" if z else "0", (0, lowest), (-6, 0), ("axes fraction", "data"), "offset points",
-                    fontsize=7, va="center", ha="right")
+        lowest = max(lowest + gap, z)
+        panel.note(f"{z:.2f} m" if z else "0", (left, lowest), (-6, 0), panel.plane, fontsize=7, va="center",
+                   ha="right")
 
 
 def draw_plan(ax, model):
@@ -158,7 +149,7 @@ def draw_plan(ax, model):
     frame_damage(ax, broken)
     for grid in model.grids.values():
         number_nodes(ax, grid, next(iter(model.grids.values())))
-    ax.set_title("Plan of the first storey, north up: columns, braces and walls", fontsize=9, loc="left")
+    ax.set_title("Plan of the first storey, north up: columns, braces and walls", fontsize=9, loc="left", y=1)
     finish_plan(ax, columns or others)
 
 
@@ -211,14 +202,15 @@ def frame_damage(ax, positions):
     positions = np.array(positions)
     low, high = positions.min(0), positions.max(0)
     size = np.maximum(1.1 * (high - low) + DAMAGE_MARGIN, 2 * DAMAGE_MARGIN)
-    ax.add_patch(Ellipse((low + high) / 2, *size, fill=False, edgecolor=colors.ORANGE, lw=1.6, zorder=8, clip_on=False))
+    ax.add_artist(Ellipse((low + high) / 2, *size, fill=False, edgecolor=colors.ORANGE, lw=1.6, zorder=8,
+                          clip_on=False))
     ax.plot(*positions.T, linestyle="none", marker="o", markersize=3.5, markerfacecolor="white",
             markeredgecolor="black", markeredgewidth=0.8, zorder=9)
 
 
-def legend(figure, solids, model):
+def legend(figure, solids, walls, model):
     symbol = partial(Line2D, [], [], linestyle="none", color="black")
-    entries = kind_entries(solids) + sheet_entries({state for _, state in sheathing(model)})
+    entries = kind_entries(solids) + wall_entries({wall.kind for wall in walls})
     for size in sorted({max(e.section) for e in model.of_kind("column")}, reverse=True):
         entries.append(symbol(marker="s", markersize=6, markerfacecolor="black" if size >= THICK else "white",
                               label=f"column {100 * size:g} cm (plan)"))

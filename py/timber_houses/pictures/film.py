@@ -15,11 +15,10 @@ from PIL import Image
 from ..base.atomic_write import written_whole
 from ..base.errors import RunError
 from ..recording.summary import TownSummary, collapse_time
-from . import camera
 from .caption import Caption, Strip
 from .key_times import first_shown, last_change
 from .provenance import parts
-from .stage import Stage
+from .stage import stages
 
 ENCODING = ("-c:v", "libx264", "-preset", "veryfast", "-crf", "21", "-pix_fmt", "yuv420p", "-movflags", "+faststart",
             "-f", "mp4")
@@ -109,11 +108,7 @@ class Pictures:
         self.strips = [Strip(run, origin, (form.width // len(below), form.height))
                        for run, origin in zip(below, origins)]
         size = form.width // len(runs), form.height - self.strips[0].height
-        starts = [corners(run) for run in runs]
-        shown = np.concatenate([camera.kept(start, corners(run, -1)) for run, start in zip(runs, starts)])
-        seen = camera.look(view, shown, size[0] / size[1])
-        light = camera.sun(np.concatenate(starts))
-        self.stages = [Stage(run, size, seen, light) for run in runs]
+        self.stages = stages(runs, size, view)
         self.captions = [Caption(run, size) for run in runs]
 
     def at(self, time):
@@ -125,12 +120,6 @@ class Pictures:
         for number, strip in enumerate(self.strips):
             self.picture.paste(strip.at(time), (number * strip.width, self.picture.height - strip.height))
         return self.picture
-
-
-def corners(run, frame=None):
-    """(P, 3) corners of all elements but the ground in a frame, or (None) before the first step. [m]"""
-    bodies = run.all_corners(frame)
-    return np.concatenate([bodies[k] for k in run.shown])
 
 
 def _write_mp4(path, images, form, _count):

@@ -1,17 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Page for the owner of a house in English or Japanese: verdict, its meaning, pictures, events."""
-import base64
 import io
 
-import numpy as np
-
 from ..base.atomic_write import write_text
-from ..base.html import html
+from ..base.html import embedded, html
 from ..text import english, japanese
-from . import OWNER, VERDICTS, camera
-from .film import corners
+from . import OWNER, VERDICTS
 from .renderer import NoOpenGL
-from .stage import Stage
+from .stage import stages
 
 LANGUAGES = {"en": english, "ja": japanese}
 SIZE = (640, 420)
@@ -39,10 +35,8 @@ def page(frames, shown, language):
 
 def pictures(frames):
     """{'start', 'end'}: the house at the start and at the end, as addresses of images."""
-    points = [corners(frames), corners(frames, -1)]
-    seen = camera.look("space", np.concatenate([points[0], camera.kept(points[0], points[1])]), SIZE[0] / SIZE[1])
     try:
-        stage = Stage(frames, SIZE, seen, camera.sun(points[0]))
+        stage, = stages([frames], SIZE, "space")
         return {name: _address(stage.picture(frames.time[frame])) for name, frame in (("start", 0), ("end", -1))}
     except NoOpenGL:
         return {}
@@ -50,5 +44,5 @@ def pictures(frames):
 
 def _address(image):
     data = io.BytesIO()
-    image.convert("RGB").save(data, "jpeg", quality=85)
-    return f"data:image/jpeg;base64,{base64.b64encode(data.getvalue()).decode()}"
+    image.save(data, "jpeg", quality=85)
+    return embedded(data.getvalue(), "jpeg")

@@ -9,7 +9,7 @@ from functools import cache
 
 import numpy as np
 
-from ..recording.record import rotated
+from ..recording.record import placed, rotated
 from ..recording.walls import of_walls, sheet_states
 
 THICKNESS, LAYER = 0.02, 0.03
@@ -20,6 +20,8 @@ TEETH, TOOTH = (0.47, 0.36), 0.17
 """Ends of the torn edge, distance between them, as parts of the bay."""
 MARKS = {"none": (0.25, 0.5), "window": (0.28, 0.165), "door": (0.28, 0.875)}
 """Place of a sheet's mark, on its first half, as parts of the bay."""
+STATES = {"whole": 0, "partly": 1, "broken": 2, "before": 3}
+"""Numbers of the states of joints and sheets for the graphics card and VTK."""
 BOX = ((0, 1, 2, 3), (7, 6, 5, 4), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0))
 """Faces of a prism of four sides: front, back, edges."""
 
@@ -44,6 +46,12 @@ class Plate:
 def plates(frames):
     """Plates of a run, vertices in the body frames of their columns."""
     return [replace(plate, vertices=_local(frames, plate.body, plate.vertices)) for plate in _plates(_bays(frames))]
+
+
+def placed_plates(plates, states, position, orientation):
+    """The Plates that show states of the sheets, in the world. position, orientation: of the elements"""
+    return [replace(plate, vertices=placed(plate.vertices, position[plate.body], orientation[plate.body]))
+            for plate in plates if plate.shows(states)]
 
 
 def plates_as_built(model):
@@ -75,15 +83,19 @@ def mark_anchors(frames):
     return body, anchor
 
 
-def mark_states(frames, frame):
-    """State of each joint's mark in a frame: of a sheet's first joint that of the sheet, of its second one 'whole'."""
-    shown, j = frames.joint_states(frame), frames.joints
+def marks(frames, anchors, frame, position, orientation):
+    """((M, 3) places [m], (M,) states) of the marks of damaged joints, one of each wall sheet, in a frame.
+
+    anchors: from `mark_anchors`; position, orientation: of the elements
+    """
+    state, j = frames.joint_states(frame), frames.joints
     walls = np.flatnonzero(of_walls(j))
     first = walls[np.unique(np.asarray(j.sheet)[walls], return_index=True)[1]]
-    of_sheets = np.where(shown[first] == "before", "before", states(frames, frame))
-    shown[walls] = "whole"
-    shown[first] = of_sheets
-    return shown
+    of_sheets = np.where(state[first] == "before", "before", states(frames, frame))
+    state[walls] = "whole"
+    state[first] = of_sheets
+    body, anchor = (values[state != "whole"] for values in anchors)
+    return np.asarray(position)[body] + rotated(np.asarray(orientation)[body], anchor), state[state != "whole"]
 
 
 def bay_corners(low, high):

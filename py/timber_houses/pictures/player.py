@@ -169,7 +169,7 @@ def main_event(run):
 def kinds(present):
     """[{kind, color}] of the kinds of elements that occur, from the roof downwards."""
     ordered = [kind for kind in reversed(colors.KINDS) if kind in present] + sorted(present - set(colors.KINDS))
-    return [{"kind": kind, "color": to_hex(colors.KINDS.get(kind, colors.OTHER))} for kind in ordered]
+    return [{"kind": kind, "color": to_hex(colors.of(kind))} for kind in ordered]
 
 
 def events(run):

@@ -30,7 +30,7 @@ def figure(name, structure):
         axis.set(xlim=0, ylim=0)
         axis.set_xticks([0, *TICKS], ["0", *map(ratio, TICKS)])
         axis.axvline(DAMAGE.drift, color="#999999", lw=0.6, ls=":")
-        axis.set_title(f"{name}, storey {storey}: shear [kN] over drift", fontsize=6.5, loc="left", pad=2)
+        axis.set_title(f"{name}, storey {storey}: shear [kN] over drift", fontsize=6.5, loc="left", pad=2, y=1)
         axis.tick_params(labelsize=6, pad=1.5, length=2)
         axis.grid(alpha=0.25)
         axis.legend(fontsize=6, frameon=False, handlelength=1.2)

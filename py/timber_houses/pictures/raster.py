@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from .renderer import Bodies, Topology, canvas, program, put
+from .renderer import Bodies, canvas, program, put
 
 LIGHT = np.array([0.35, 0.75, 0.80])
 """Direction to the light in the axes right, towards the viewer, up of the picture; any length."""
@@ -58,13 +58,12 @@ def shade(solids, window, front, sky=SKY):
     solids  list with .vertices, .faces, .color, .kind
     front   where haze begins, as from `front_of` [m]
     sky     RGB of the background, or one number for a grey
-    Returns the RGB picture (rows, columns, 3), uint8, first row at the top, and for each pixel the coordinate towards
-    the viewer of the visible face [m], minus infinity for the background.
+    Returns the picture (rows, columns, 4), uint8, first row at the top, and for each pixel the coordinate towards the
+    viewer of the visible face [m], of the background a lower one than of any body.
     """
     sky = np.broadcast_to(np.float32(sky), 3)
     drawn, near, far = _drawn(solids, window, front, sky)
-    picture, depth = drawn.pixels(), drawn.depths()
-    return picture, np.where(depth < 1, near + (far - near) * depth, -np.inf)
+    return drawn.pixels(), near + (far - near) * drawn.depths()
 
 
 def covered(solids, window):
@@ -76,12 +75,10 @@ def covered(solids, window):
 def _drawn(solids, window, front, sky):
     """(Canvas with the picture, nearest and farthest coordinate towards the viewer [m])."""
     view = window.view
-    bodies = Bodies(Topology([s.faces for s in solids], [len(s.vertices) for s in solids]), [s.color for s in solids],
-                    "PLAIN")
-    vertices = np.concatenate([s.vertices for s in solids]) if solids else np.zeros((0, 3))
-    toward = vertices @ view.toward
+    bodies = Bodies([(k, s.vertices, s.faces, s.color) for k, s in enumerate(solids)], "PLAIN")
+    toward = bodies.vertices @ view.toward
     near, far = (toward.max() + 0.1, toward.min() - 0.1) if len(toward) else (1.0, 0.0)
-    bodies.put(vertices)
+    bodies.put(bodies.vertices)
     light = LIGHT @ np.array([view.right, view.toward, view.up], float) / np.linalg.norm(LIGHT)
     shared = dict(camera=window.matrix(near, far), toward=(*view.toward, front), haze=sky, haziness=(HAZE, HAZE_DEPTH))
     put(program("PLAIN"), **shared, light=light, ambient=(DARKEST, DARKEST), direct=1 - DARKEST)

@@ -11,6 +11,7 @@ import numpy as np
 from PIL import Image
 
 from ..base.errors import RunError
+from ..recording.record import rotated
 
 PACKAGES = "python3-moderngl libegl1 libegl-mesa0 libgl1-mesa-dri"
 EGL_DEVICES = 8
@@ -77,61 +78,62 @@ def put(shader, **values):
             shader[name].write((value.T if value.shape == (4, 4) else value).tobytes())
 
 
-class Topology:
-    """Convex faces as fans of triangles. faces: of each body, lists of vertex numbers; counts: of its vertices"""
+class Bodies:
+    """Convex bodies on the graphics card, their faces as fans of triangles.
 
-    def __init__(self, faces, counts):
-        sizes = np.array([len(face) for body in faces for face in body], int)
-        body = np.repeat(np.arange(len(faces)), np.array([len(body) for body in faces], int))
-        first = np.cumsum([0, *counts[:-1]])[body]
-        vertex = np.array([vertex for body in faces for face in body for vertex in face], int) + np.repeat(first, sizes)
+    shapes: [(body, vertices in its frame [m], faces, RGB)]; surface: program of the faces, SOLID, or PLAIN (no shadows)
+    """
+
+    def __init__(self, shapes, surface="SOLID"):
+        counts = np.array([len(vertices) for _, vertices, _, _ in shapes], int)
+        self.body = np.repeat(np.array([body for body, *_ in shapes], int), counts)
+        self.vertices = np.concatenate([np.empty((0, 3)), *(vertices for _, vertices, _, _ in shapes)])
+        faces = [face for _, _, faces, _ in shapes for face in faces]
+        shape = np.repeat(np.arange(len(shapes)), [len(faces) for _, _, faces, _ in shapes])  # of each face
+        sizes = np.array([len(face) for face in faces], int)
+        first = np.repeat((np.cumsum(counts) - counts)[shape], sizes)
+        vertex = np.array([vertex for face in faces for vertex in face], int) + first
         starts, ends = np.cumsum(sizes) - sizes, np.cumsum(sizes) - 1
         following = np.arange(len(vertex)) + 1
         following[ends] = starts
         edges = np.column_stack([vertex, vertex[following]])
-        self.edges = edges[edges[:, 0] < edges[:, 1]]  # two faces share an edge
-        """(E, 2) vertices of the edges."""
-        self.fan = sizes - 2
-        """(F,) number of triangles of each face."""
+        self.edge_ends = edges[edges[:, 0] < edges[:, 1]]  # two faces share an edge
+        self.fan = sizes - 2  # triangles of each face
         second = np.delete(np.arange(len(vertex)), np.concatenate([starts, ends]))
-        self.corners = vertex[np.column_stack([np.repeat(starts, self.fan), second, second + 1])]
-        """(T, 3) vertices of the triangles, counter-clockwise from outside."""
-        self.body = np.repeat(body, self.fan)
-        """(T,) body of each triangle."""
-
-    def triangles(self, vertices):
-        """(T, 3, 6) corners of the triangles: place, unit normal of the face [m]. vertices: (V, 3) of all bodies"""
-        places = vertices[self.corners]
-        u, v = (places[:, 1:] - places[:, :1]).transpose(1, 0, 2)
-        area = u[:, [1, 2, 0]] * v[:, [2, 0, 1]] - u[:, [2, 0, 1]] * v[:, [1, 2, 0]]
-        normal = np.add.reduceat(area, np.cumsum(self.fan) - self.fan)
-        normal /= np.maximum(np.sqrt((normal * normal).sum(1, keepdims=True)), 1e-30)
-        corners = np.empty((len(places), 3, 6), "f4")
-        corners[:, :, :3] = places
-        corners[:, :, 3:] = np.repeat(normal, self.fan, axis=0)[:, None]
-        return corners
-
-
-class Bodies:
-    """Bodies on the graphics card. colors: (N, 3) RGB; surface: program of the faces, SOLID, or PLAIN (no shadows)"""
-
-    def __init__(self, topology, colors, surface="SOLID"):
-        self.topology = topology
-        self.content = np.zeros((len(topology.corners), 3, 9), "f4")
-        self.content[:, :, 6:] = np.asarray(colors, "f4").reshape(-1, 3)[topology.body][:, None]
+        self.triangles = vertex[np.column_stack([np.repeat(starts, self.fan), second, second + 1])]
+        """(T, 3) their vertices, counter-clockwise from outside."""
+        self.content = np.zeros((len(self.triangles), 3, 9), "f4")
+        colors = np.array([color for *_, color in shapes], "f4").reshape(-1, 3)
+        self.content[:, :, 6:] = colors[np.repeat(shape, self.fan)][:, None]
         gl = context()
         self.corners = gl.buffer(reserve=max(self.content.nbytes, 4), dynamic=True)
-        self.ends = gl.buffer(reserve=max(24 * len(topology.edges), 4), dynamic=True)
+        self.ends = gl.buffer(reserve=max(24 * len(self.edge_ends), 4), dynamic=True)
         self.faces = gl.vertex_array(program(surface), [(self.corners, *LAYOUT)])
         self.shadow = gl.vertex_array(program("SHADOW"), [(self.corners, "3f 24x", "place")])
         self.edges = gl.vertex_array(program("EDGE"), [(self.ends, "3f", "place")])
 
+    def place(self, position, orientation):
+        """Put the shapes where the bodies are; returns their vertices [m], 0 of removed bodies."""
+        vertices = position[self.body] + rotated(orientation[self.body], self.vertices)
+        vertices = np.where(np.isfinite(vertices), vertices, 0.0)
+        self.put(vertices)
+        return vertices
+
     def put(self, vertices):
-        """Take over the vertices (V, 3) [m]."""
+        """Take over the vertices (V, 3) in the world [m]."""
         if self.content.size:
-            self.content[:, :, :6] = self.topology.triangles(vertices)
+            self.content[:, :, :6] = self._corners(vertices)
             self.corners.write(self.content)
-            self.ends.write(vertices[self.topology.edges].astype("f4"))
+            self.ends.write(vertices[self.edge_ends].astype("f4"))
+
+    def _corners(self, vertices):
+        """(T, 3, 6) corners of the triangles: place, unit normal of the face [m]."""
+        places = vertices[self.triangles]
+        u, v = (places[:, 1:] - places[:, :1]).transpose(1, 0, 2)
+        area = u[:, [1, 2, 0]] * v[:, [2, 0, 1]] - u[:, [2, 0, 1]] * v[:, [1, 2, 0]]
+        normal = np.add.reduceat(area, np.cumsum(self.fan) - self.fan)
+        normal /= np.maximum(np.sqrt((normal * normal).sum(1, keepdims=True)), 1e-30)
+        return np.concatenate([places, np.repeat(np.repeat(normal, self.fan, axis=0)[:, None], 3, axis=1)], axis=2)
 
     def render_faces(self):
         """Draw the faces that are turned towards the viewer."""
@@ -164,10 +166,9 @@ class Canvas:
         self.frame.use()
         self.frame.clear(*color, alpha=0.0, depth=1.0)
 
-    def pixels(self, components=3):
-        """(height, width, components) uint8, the first row at the top."""
-        data = self.frame.read(components=components, alignment=1)
-        return np.frombuffer(data, np.uint8).reshape(*self.size[::-1], components)[::-1]
+    def pixels(self):
+        """(height, width, 4) uint8, the first row at the top."""
+        return np.frombuffer(self.frame.read(components=4), np.uint8).reshape(*self.size[::-1], 4)[::-1]
 
     def image(self):
         """RGB image of Pillow."""

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Report of a run on one A4 page: report.html, self-contained, and report.pdf where Chromium is installed."""
-import base64
-import io
 import os
 import shlex
 import shutil
@@ -14,7 +12,7 @@ import numpy as np
 from ..base.atomic_write import write_text, written_whole
 from ..base.errors import RunError
 from ..base.gravity import weight_of
-from ..base.html import html
+from ..base.html import embedded, html
 from ..base.joint_kinds import WALL_COLUMN
 from ..base.options import words
 from ..motion import GroundMotion, pga, pgv
@@ -24,8 +22,9 @@ from ..recording import verdict
 from ..recording.failures import first_failures, place
 from ..text.english import counted, directed, mode_name, period_text, sentence, storey_name
 from ..text.lines import before, lines
-from . import REPORT, VERDICTS, fonts, pushover, quantities, report_pictures
-from .style import default_style
+from . import REPORT, VERDICTS, pushover, quantities, report_pictures
+from .figures import image_of, png
+from .sheets import Stills
 
 PAGE, PDF = REPORT
 JOINTS_SHOWN = 6
@@ -48,10 +47,13 @@ LIGHT = 1.5
 """Weight per floor area below which a house is lighter than real ones. [kN/m2]"""
 
 
-def write(folder):
-    """Write report.html, and report.pdf if there is a browser, into a run's folder; returns the paths. RunError."""
+def write(folder, stills=None):
+    """Write report.html, and report.pdf if there is a browser, into a run's folder; returns the paths. RunError.
+
+    stills: of the run, else made from its frames
+    """
     folder = Path(folder)
-    write_text(folder / PAGE, page(recorded(folder)))
+    write_text(folder / PAGE, page(stills or Stills(recorded(folder))))
     return [folder / PAGE, *print_pdf(folder / PAGE, folder / PDF)]
 
 
@@ -66,9 +68,9 @@ def recorded(folder):
     return frames
 
 
-def page(frames):
+def page(stills):
     """Text of the page of an ended run."""
-    summary = frames.summary
+    frames, summary = stills.frames, stills.frames.summary
     failures = first_failures(frames) if summary.collapsed else []
     return html(
         "report.html",
@@ -83,7 +85,7 @@ def page(frames):
         until=before(summary.quantities),
         pushover=pushover_picture(summary),
         storeys=storeys(summary),
-        shots=picture(*report_pictures.shots(frames)),
+        shots=picture(*report_pictures.shots(stills)),
         lines=lines(summary),
         failures=failed_joints(frames, failures),
         others=others(frames) if failures else None,
@@ -96,13 +98,10 @@ def page(frames):
     )
 
 
-@default_style()
-def picture(figure, part=None):
-    """A figure, or a part of it (Bbox [inch]), as the address of an image."""
-    data = io.BytesIO()
-    fonts.apply(figure)
-    figure.savefig(data, format="png", dpi=report_pictures.DPI, bbox_inches=part, metadata={"Software": None})
-    return f"data:image/png;base64,{base64.b64encode(data.getvalue()).decode()}"
+def picture(figure, cut=0.0):
+    """A figure without its upper part of a height [inch], as the address of an image."""
+    shown = image_of(figure)[round(cut * figure.dpi):]
+    return embedded(png(shown, figure.dpi), "png")
 
 
 def pushover_picture(summary):

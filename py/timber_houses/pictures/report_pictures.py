@@ -2,7 +2,6 @@
 """Pictures of the report: plans of the house, the motion with its spectrum, key times of the run."""
 import numpy as np
 from matplotlib.patches import Polygon, Rectangle
-from matplotlib.transforms import Bbox
 
 from ..base import colors
 from ..motion import GAL, response_spectrum
@@ -10,7 +9,7 @@ from ..recording.history import DIRECTIONS
 from ..text.english import direction_name
 from .figures import heading_height, new_figure
 from .key_times import first_shown, last_shown
-from .sheets import Format, result, sheet
+from .sheets import Format, result
 from .style import default_style
 from .views import FRONT, SIDE
 
@@ -62,7 +61,7 @@ def draw_plan(axis, frames, storey):
                       solid_capstyle="butt", zorder=1.5)
     damaged = frames.joint_places(0)[np.asarray(frames.joints.damaged, bool) & (e.storey[frames.joints.a] == storey)]
     axis.plot(*damaged[:, :2].T, "o", ms=2.5, mfc="white", mec=colors.ORANGE, mew=0.8, zorder=4)
-    axis.set_title(f"storey {storey}", fontsize=7, pad=2)
+    axis.set_title(f"storey {storey}", fontsize=7, pad=2, y=1)
     axis.set_aspect("equal")
     axis.axis("off")
 
@@ -124,15 +123,15 @@ def draw_periods(axis, summary):
 
 
 def style(axis, title, x):
-    axis.set_title(title, fontsize=7, loc="left", pad=2)
+    axis.set_title(title, fontsize=7, loc="left", pad=2, y=1)
     axis.set_xlabel(x, fontsize=6.5, labelpad=0)
     axis.tick_params(labelsize=6, pad=1.5, length=2)
     axis.grid(alpha=0.25)
 
 
-def shots(frames):
-    """(figure with up to six key times in the view of the largest motion; its part without the heading [inch])."""
-    direction = frames.summary.tilt_direction or frames.summary.largest_drift()[2]
-    figure = sheet(frames, FRONT if direction == "ns" else SIDE, SHOTS)
-    width, height = figure.get_size_inches()
-    return figure, Bbox([[0, 0], [width, height - heading_height(width, result(frames)) - 0.12]])
+def shots(stills):
+    """(figure with up to six key times in the view of the largest motion; height of its heading [inch])."""
+    summary = stills.frames.summary
+    direction = summary.tilt_direction or summary.largest_drift()[2]
+    figure = stills.sheet(FRONT if direction == "ns" else SIDE, SHOTS)
+    return figure, heading_height(figure.get_size_inches()[0], result(stills.frames)) + 0.12

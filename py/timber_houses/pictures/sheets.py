@@ -1,21 +1,19 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Sheets of pictures of a run, made from its recorded frames: key times in one view, and the end in two views."""
 from dataclasses import dataclass
-
-import numpy as np
+from functools import cache, partial
 
 from ..base import colors
-from ..recording.record import placed, rotated
 from ..text.english import sentence
 from . import key_times
-from .figures import (A4, MARGIN, POINT_LETTERS, add_panel, drawable, fitting_size, footer, heading, heading_height,
-                      new_figure)
-from .panels import mark_anchors, mark_states, plates, states
+from .figures import (A4, MARGIN, POINT_LETTERS, TITLE_PAD, Panel, drawable, fitting_size, footer, heading,
+                      heading_height, new_figure)
+from .panels import mark_anchors, marks, placed_plates, plates, states
 from .provenance import provenance
 from .raster import Window, even_density, front_of
 from .style import default_style
-from .views import (VIEWS, Mark, Snapshot, Solid, box_of, draw_ends, draw_silhouette, draw_view, legend, scale_bar,
-                    silhouette)
+from .views import (INK, MARK_SIZE, VIEWS, Snapshot, Solid, box_of, draw_ends, draw_view, legend, scale_bar,
+                    silhouette, wall_solids)
 
 
 @dataclass(frozen=True)
@@ -86,38 +84,83 @@ def layout(form, count, box, result):
     return Layout(count, columns, density, panel, sheet_width, heading_height(sheet_width, result))
 
 
-@default_style()
-def sheet(frames, view, form):
-    """Figure with the key times of a run in one view."""
-    times = key_times.choose(frames, form.panels)
-    start = solids(frames)
-    shots = [snapshot(frames, time.frame) for time in times]
-    box = box_of(view, start, [shot.solids for shot in shots])
-    plan = layout(form, len(shots), box, result(frames))
-    front, outlines = front_of(start, view), silhouette(start, view)
-    figure = new_figure(plan.width, plan.height, form.dpi)
-    for time, shot, corner in zip(times, shots, plan.corners()):
-        ax = add_panel(figure, corner, plan.panel, form.dpi)
-        draw_view(ax, Window(view, box, plan.density), shot, front, PANEL_MARK)
-        if time.frame:
-            draw_silhouette(ax, outlines, PANEL_MARK)
-        fitted_title(ax, f"{frames.time[time.frame]:.2f} s", time.reason, plan.panel[0])
-        draw_ends(ax, view, 7)
-        scale_bar(ax, box, 7)
-    heading(figure, f"{frames.title}. {view.title}", result(frames))
-    legend(figure, start, {state for shot in shots for state in shot.states}, 8)
-    footer(figure, provenance(frames))
-    return figure
+class Stills:
+    """Sheets of a run (Frames); what several of them show is made once."""
+
+    def __init__(self, frames):
+        self.frames, self.start = frames, solids(frames)
+        self.plates, self.anchors = plates(frames), mark_anchors(frames)
+        self.times = cache(partial(key_times.choose, frames))
+        self.outlines = cache(partial(silhouette, self.start))
+        self.shot = cache(self._shot)
+
+    def _shot(self, frame):
+        """Snapshot of a frame."""
+        position, orientation = self.frames.position[frame], self.frames.orientation[frame]
+        shown = states(self.frames, frame)
+        return Snapshot(solids(self.frames, frame),
+                        wall_solids(placed_plates(self.plates, shown, position, orientation), shown),
+                        *marks(self.frames, self.anchors, frame, position, orientation))
+
+    @default_style()
+    def sheet(self, view, form):
+        """Figure with the key times of a run in one view."""
+        times = self.times(form.panels)
+        shots = [self.shot(time.frame) for time in times]
+        box = box_of(view, self.start, [shot.solids for shot in shots])
+        plan = layout(form, len(shots), box, result(self.frames))
+        figure = new_figure(plan.width, plan.height, form.dpi)
+        for time, shot, corner in zip(times, shots, plan.corners()):
+            panel = Panel(figure, corner, Window(view, box, plan.density))
+            self._draw(panel, shot, 7, PANEL_MARK, outlined=time.frame)
+            fitted_title(panel, f"{self.frames.time[time.frame]:.2f} s", time.reason)
+        self._finish(figure, view.title, shots, 8)
+        return figure
+
+    @default_style()
+    def both_views(self, frame, dpi):
+        """Figure with a frame in both views."""
+        shot = self.shot(frame)
+        boxes = [box_of(view, self.start, [shot.solids]) for view in VIEWS]
+        top = max(box[3] for box in boxes)
+        boxes = [(*box[:3], top) for box in boxes]
+        density = even_density(END_WIDTH * dpi / sum(box[1] - box[0] for box in boxes))
+        width = sum(box[1] - box[0] for box in boxes) * density / dpi + 2 * MARGIN + GAP
+        high = (top - boxes[0][2]) * density / dpi
+        figure = new_figure(width, heading_height(width, result(self.frames)) + CAPTION + high + END_AXES, dpi)
+        left = MARGIN
+        for view, box in zip(VIEWS, boxes):
+            panel = Panel(figure, (left, END_AXES), Window(view, box, density))
+            self._draw(panel, shot, 10)
+            panel.note(view.title, (0.5, 1), (0, TITLE_PAD), fontsize=12, ha="center")
+            left += panel.width + GAP
+        self._finish(figure, f"After {self.frames.time[frame]:.1f} s", [shot], 10)
+        return figure
+
+    def _draw(self, panel, shot, size, mark_size=MARK_SIZE, outlined=True):
+        """A shot with the outline of the house at the start. size: of the texts [pt]"""
+        view = panel.window.view
+        draw_view(panel, shot, front_of(self.start, view), mark_size)
+        for line in self.outlines(view) if outlined else ():
+            panel.plot(*line.T, color=INK, linewidth=0.1 * mark_size, linestyle="dashed")
+        draw_ends(panel, size)
+        scale_bar(panel, size)
+
+    def _finish(self, figure, title, shots, size):
+        """Heading, legend and origin. size: of the legend [pt]"""
+        heading(figure, f"{self.frames.title}. {title}", result(self.frames))
+        legend(figure, self.start, set().union(*(shot.explained for shot in shots)), size)
+        footer(figure, provenance(self.frames))
 
 
-def fitted_title(ax, time, reason, width):
-    """Title of a panel of a width [inch] in one line or, where that would be small, in two; at last cut to fit."""
-    lines, largest = [f"{time}: {reason}"], CAPTION_SIZE
+def fitted_title(panel, time, reason):
+    """Title of a panel in one line or, where that would be small, in two; at last cut to fit."""
+    lines, largest, width = [f"{time}: {reason}"], CAPTION_SIZE, panel.width
     if fitting_size(lines[0], width, CAPTION_SIZE) < TWO_LINES_SIZE:
         lines, largest = [f"{time}:", reason], TWO_LINES_SIZE
     lines = [drawable(line, int(POINT_LETTERS * width / SMALLEST_CAPTION)) for line in lines]
     size = min(fitting_size(line, width, largest) for line in lines)
-    ax.set_title("\n".join(lines), fontsize=size, linespacing=1.0, loc="left", pad=3, y=1)
+    panel.note("\n".join(lines), (0, 1), (0, 3), fontsize=size, linespacing=1.0)
 
 
 def result(frames):
@@ -125,57 +168,8 @@ def result(frames):
     return sentence(frames.summary) if frames.summary else ""
 
 
-@default_style()
-def both_views(frames, frame, dpi):
-    start = solids(frames)
-    shot = snapshot(frames, frame)
-    boxes = [box_of(view, start, [shot.solids]) for view in VIEWS]
-    top = max(box[3] for box in boxes)
-    boxes = [(*box[:3], top) for box in boxes]
-    density = even_density(END_WIDTH * dpi / sum(box[1] - box[0] for box in boxes))
-    sizes = [((box[1] - box[0]) * density / dpi, (top - box[2]) * density / dpi) for box in boxes]  # [inch]
-    width = sum(width for width, _ in sizes) + 2 * MARGIN + GAP
-    height = heading_height(width, result(frames)) + CAPTION + sizes[0][1] + END_AXES
-    figure = new_figure(width, height, dpi)
-    left = MARGIN
-    for view, box, size in zip(VIEWS, boxes, sizes):
-        ax = add_panel(figure, (left, END_AXES), size, dpi)
-        draw_view(ax, Window(view, box, density), shot, front_of(start, view))
-        draw_silhouette(ax, silhouette(start, view))
-        ax.set_title(view.title, fontsize=12, y=1)
-        draw_ends(ax, view, 10)
-        scale_bar(ax, box, 10)
-        left += size[0] + GAP
-    heading(figure, f"{frames.title}. After {frames.time[frame]:.1f} s", result(frames))
-    legend(figure, start, shot.states, 10)
-    footer(figure, provenance(frames))
-    return figure
-
-
-# --- recorded frames as plain data ------------------------------------------------------------------------------------
-
-
-def snapshot(frames, frame):
-    return Snapshot(solids(frames, frame), marks(frames, frame), sheathing(frames, frame))
-
-
 def solids(frames, frame=None):
     """Solid of every element in a frame, or (None) before the first step."""
     e = frames.elements
-    parts = zip(e.kind, frames.all_corners(frame), e.faces)
-    return [Solid(kind, corners, faces, colors.KINDS.get(kind, colors.OTHER)) for kind, corners, faces in parts]
-
-
-def sheathing(frames, frame):
-    """(Solid, state) of every plate of the wall sheets in a frame."""
-    shown, position, orientation = states(frames, frame), frames.position[frame], frames.orientation[frame]
-    return [(Solid("sheet", placed(plate.vertices, position[plate.body], orientation[plate.body]), plate.faces,
-                   colors.SHEETS[shown[plate.sheet]]), shown[plate.sheet])
-            for plate in plates(frames) if plate.shows(shown)]
-
-
-def marks(frames, frame):
-    """Mark of every broken or partly broken joint in a frame, one of each wall sheet."""
-    body, anchor = mark_anchors(frames)
-    positions = np.asarray(frames.position[frame])[body] + rotated(np.asarray(frames.orientation[frame])[body], anchor)
-    return [Mark(position, state) for position, state in zip(positions, mark_states(frames, frame)) if state != "whole"]
+    return [Solid(kind, corners, faces, colors.of(kind))
+            for kind, corners, faces in zip(e.kind, frames.all_corners(frame), e.faces)]

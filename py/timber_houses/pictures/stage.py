@@ -4,9 +4,9 @@ import numpy as np
 from matplotlib.colors import to_rgb
 
 from ..base import colors
-from ..recording.record import rotated
-from .panels import mark_anchors, mark_states, plates, states
-from .renderer import Bodies, Canvas, Topology, context, program, put
+from . import camera
+from .panels import STATES, mark_anchors, marks, plates, states
+from .renderer import Bodies, Canvas, context, program, put
 
 SHADOW_PIXELS = 1024
 HORIZON, ZENITH = (0.93, 0.945, 0.94), (0.72, 0.82, 0.90)
@@ -23,10 +23,23 @@ HOUSE_SIZE = 30.0
 """Largest plan of a house. [m]"""
 MARK_SIZE, MARK_PIXELS = 0.25, (9.0, 26.0)
 """Size of a mark [m], and its limits [pixel]."""
-STATES = {"partly": 1.0, "broken": 2.0, "before": 3.0}
 HIDDEN = 0.3
 """Opacity of a mark behind a member. [-]"""
 SQUARE, UPPER_HALF = np.array([[0, 0, 1, 0, 0, 1, 1, 1], [-1, 0, 1, 0, -1, 1, 1, 1]], "f4")
+
+
+def stages(runs, size, view):
+    """A Stage of each run (Frames), all with one light and one camera, VIEW of camera.CAMERAS. size: of each [pixel]"""
+    starts = [corners(run) for run in runs]
+    shown = np.concatenate([camera.kept(start, corners(run, -1)) for run, start in zip(runs, starts)])
+    seen, light = camera.look(view, shown, size[0] / size[1]), camera.sun(np.concatenate(starts))
+    return [Stage(run, size, seen, light) for run in runs]
+
+
+def corners(run, frame=None):
+    """(P, 3) corners of all elements but the ground in a frame, or (None) before the first step. [m]"""
+    bodies = run.all_corners(frame)
+    return np.concatenate([bodies[k] for k in run.shown])
 
 
 class Stage:
@@ -41,9 +54,8 @@ class Stage:
         self.middle = (places.min(0) + places.max(0)) / 2
         self.spread = max(1.0, np.ptp(places, axis=0).max() / HOUSE_SIZE)
         self.plates, self.mark_anchors, self.sheets = plates(frames), mark_anchors(frames), None
-        self.elements = Layer([(k, e.vertices[k], e.faces[k], colors.KINDS.get(e.kind[k], colors.OTHER))
-                               for k in self.numbers])
-        self.sheathing = Layer([])
+        self.elements = Bodies([(k, e.vertices[k], e.faces[k], colors.of(e.kind[k])) for k in self.numbers])
+        self.sheathing = Bodies([])
         self.canvas = Canvas(*size)
         gl = context()
         self.depth = gl.depth_texture((SHADOW_PIXELS, SHADOW_PIXELS))
@@ -60,21 +72,21 @@ class Stage:
         """Image (of Pillow) at a time [s]; positions are interpolated between frames, the ground moves as recorded."""
         position, orientation = placements(self.frames, time)
         self._sheathe(time)
-        vertices = np.concatenate([layer.place(position, orientation) for layer in self._layers])
+        vertices = np.concatenate([bodies.place(position, orientation) for bodies in self._bodies])
         places = vertices[:, :2] - vertices[:, 2:] * (self.light[:2] / self.light[2])  # of the shadows on the ground
         self._prepare(ground_at(self.frames.motion, time), np.concatenate([places.min(0), places.max(0)]))
         self._draw_shadow()
         self.canvas.begin(HORIZON)
-        for layer in self._layers:
-            layer.bodies.render_faces()
+        for bodies in self._bodies:
+            bodies.render_faces()
         self._draw_background()
-        for layer in self._layers:
-            layer.bodies.render_edges()
+        for bodies in self._bodies:
+            bodies.render_edges()
         self._draw_marks(position, orientation, time)
         return self.canvas.image()
 
     @property
-    def _layers(self):
+    def _bodies(self):
         return self.elements, self.sheathing
 
     def _sheathe(self, time):
@@ -82,9 +94,9 @@ class Stage:
         state = states(self.frames, frame_before(self.frames, time))
         if state != self.sheets:
             self.sheets = state
-            self.sheathing.bodies.release()
-            self.sheathing = Layer([(plate.body, plate.vertices, plate.faces, colors.SHEETS[state[plate.sheet]])
-                                    for plate in self.plates if plate.shows(state)])
+            self.sheathing.release()
+            self.sheathing = Bodies([(plate.body, plate.vertices, plate.faces, colors.SHEETS[state[plate.sheet]])
+                                     for plate in self.plates if plate.shows(state)])
 
     def _draw_background(self):
         """Sky, ground and the shadows on it, where no face is: their shading takes a third of the time of a picture."""
@@ -101,8 +113,8 @@ class Stage:
         self.shadow.use()
         self.shadow.clear(depth=1.0)
         context().enable_only(context().DEPTH_TEST | context().CULL_FACE)
-        for layer in self._layers:
-            layer.bodies.shadow.render()
+        for bodies in self._bodies:
+            bodies.shadow.render()
         self.depth.use(0)
 
     def _prepare(self, moved, shadows):
@@ -128,13 +140,9 @@ class Stage:
     def _draw_marks(self, position, orientation, time):
         """Marks of the damaged joints, pale where a member hides them."""
         gl = context()
-        damage = mark_states(self.frames, frame_before(self.frames, time))
-        numbers = np.flatnonzero(damage != "whole")
-        body, anchor = (values[numbers] for values in self.mark_anchors)
-        places = position[body] + rotated(orientation[body], anchor)
-        points = (np.column_stack([places, [STATES[state] for state in damage[numbers]]]) if len(numbers)
-                 else np.zeros((0, 4)))
-        points = points[np.isfinite(points).all(1)].astype("f4")
+        places, damage = marks(self.frames, self.mark_anchors, frame_before(self.frames, time), position, orientation)
+        points = np.column_stack([places, [STATES[state] for state in damage]]).astype("f4").reshape(-1, 4)
+        points = points[np.isfinite(points).all(1)]
         if not len(points):
             return
         self.marks.write(points)
@@ -146,23 +154,6 @@ class Stage:
             self.points.render(mode=gl.POINTS, vertices=len(points))
         gl.depth_func = "<"
         self.canvas.frame.depth_mask = True
-
-
-class Layer:
-    """Shapes that move with elements. shapes: [(element, vertices in its body frame [m], faces, colour)]"""
-
-    def __init__(self, shapes):
-        counts = [len(vertices) for _, vertices, _, _ in shapes]
-        self.body = np.repeat(np.array([body for body, _, _, _ in shapes], int), counts)
-        self.vertices = np.concatenate([np.empty((0, 3)), *(vertices for _, vertices, _, _ in shapes)])
-        self.bodies = Bodies(Topology([faces for _, _, faces, _ in shapes], counts), [color for *_, color in shapes])
-
-    def place(self, position, orientation):
-        """Put the shapes where the elements are; returns their vertices [m], 0 of removed elements."""
-        vertices = position[self.body] + rotated(orientation[self.body], self.vertices)
-        vertices = np.where(np.isfinite(vertices), vertices, 0.0)
-        self.bodies.put(vertices)
-        return vertices
 
 
 def frame_before(frames, time):

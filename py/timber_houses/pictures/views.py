@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """One view of a house on matplotlib axes: front (from the east) or side (from the north), hidden surfaces removed."""
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -24,14 +25,6 @@ class Solid:
     color: tuple
 
 
-@dataclass
-class Mark:
-    """A damaged joint. position (3,) world [m]; state 'broken', 'partly' or 'before' (damaged before the run)."""
-
-    position: np.ndarray
-    state: str
-
-
 @dataclass(frozen=True)
 class View:
     """A direction of projection. right, toward (the viewer), up (3,): unit vectors."""
@@ -47,16 +40,17 @@ class View:
 
 @dataclass
 class Snapshot:
-    """A house at one time. sheathing: [(Solid, state)] of the plates of wall sheets"""
+    """A house at one time. walls: Solids of kinds as in WALL_NAMES; places (M, 3) [m] and states of marks"""
 
     solids: list
-    marks: list = field(default_factory=list)
-    sheathing: list = field(default_factory=list)
+    walls: list
+    places: np.ndarray = field(default_factory=lambda: np.empty((0, 3)))
+    states: Sequence[str] = ()
 
     @property
-    def states(self):
-        """Of its marks, and 'wall whole', 'wall partly', 'wall broken' of its sheets: what the legend explains."""
-        return {mark.state for mark in self.marks} | {f"wall {state}" for _, state in self.sheathing}
+    def explained(self):
+        """What the legend explains: states of marks, kinds of walls."""
+        return {*self.states} | {wall.kind for wall in self.walls}
 
 
 FRONT = View("front", "Front, seen from the east", (0, 1, 0), (1, 0, 0), "south", "north")
@@ -86,7 +80,7 @@ MARKERS = {  # share of MARK_SIZE and style; shapes differ, too, for print in gr
 }
 MARK_NAMES = {"broken": "joint broken (pale: hidden)", "partly": "joint partly broken",
               "before": "joint broken before the start"}
-SHEET_NAMES = {"whole": "wall", "partly": "wall partly broken", "broken": "wall broken"}
+WALL_NAMES = {"wall whole": "wall", "wall partly": "wall partly broken", "wall broken": "wall broken"}
 LEGEND_COLUMNS = 6
 LEGEND_PLACE = 0.14
 """Height of its lower end. [inch]"""
@@ -116,14 +110,12 @@ def largest(solids, axis):
     return [(s.vertices @ axis).max() for s in solids if s.kind != "ground"]
 
 
-def draw_view(ax, window, snapshot, front, mark_size=MARK_SIZE):
-    """Shaded picture of a Snapshot in a Window with ground line and damaged joints. front: from `front_of` [m]"""
-    box = window.box
-    picture, depth = shade([*snapshot.solids, *(plate for plate, _ in snapshot.sheathing)], window, front)
-    ax.add_artist(Pixels(picture))
-    ax.axhline(0, color="black", linewidth=0.16 * mark_size)
-    draw_marks(ax, window, depth, snapshot.marks, mark_size)
-    ax.set(xlim=box[:2], ylim=box[2:], xticks=[], yticks=[])
+def draw_view(panel, snapshot, front, mark_size=MARK_SIZE):
+    """Shaded picture of a Snapshot in a Panel with ground line and damaged joints. front: from `front_of` [m]"""
+    picture, depth = shade([*snapshot.solids, *snapshot.walls], panel.window, front)
+    panel.add_artist(Pixels(picture, panel.area))
+    panel.plot(panel.window.box[:2], (0, 0), color="black", linewidth=0.16 * mark_size)
+    draw_marks(panel, depth, snapshot, mark_size)
 
 
 def silhouette(start, view):
@@ -138,20 +130,15 @@ def silhouette(start, view):
     return [(line - 0.5) / OUTLINE_PIXELS + (box[0], box[2]) for line in outers]
 
 
-def draw_silhouette(ax, outlines, mark_size=MARK_SIZE):
-    for line in outlines:
-        ax.plot(*line.T, color=INK, linewidth=0.1 * mark_size, linestyle="dashed")
-
-
-def draw_marks(ax, window, depth, marks, size):
+def draw_marks(panel, depth, snapshot, size):
     """Marks of damaged joints, pale where a face hides them. depth: from `shade` [m]; size [pt]"""
+    across = snapshot.places @ panel.window.view.right
     groups = {}
-    for mark in marks:
-        place = np.dot(mark.position, window.view.right), mark.position[2]
-        groups.setdefault((mark.state, is_hidden(window, depth, mark.position)), []).append(place)
+    for state, place, x in zip(snapshot.states, snapshot.places, across):
+        groups.setdefault((state, is_hidden(panel.window, depth, place)), []).append((x, place[2]))
     for (state, hidden), places in groups.items():
-        ax.plot(*np.transpose(places), linestyle="none", alpha=0.4 if hidden else 1.0, zorder=5 if hidden else 6,
-                **marker(state, size))
+        panel.plot(*np.transpose(places), linestyle="none", alpha=0.4 if hidden else 1.0, zorder=5 if hidden else 6,
+                   **marker(state, size))
 
 
 def is_hidden(window, depth, position):
@@ -168,19 +155,20 @@ def marker(state, size):
     return dict(markersize=share * size, markeredgewidth=0.1 * size, **style)
 
 
-def draw_ends(ax, view, size):
-    """Compass directions below the ends of the axes. size: of the text [pt]"""
+def draw_ends(panel, size):
+    """Compass directions below the ends of the ground. size: of the text [pt]"""
+    view = panel.window.view
     for end, name, side in ((0, view.left_end, "left"), (1, view.right_end, "right")):
-        ax.annotate(name, (end, 0), (0, -4), "axes fraction", "offset points", fontsize=size, va="top", ha=side)
+        panel.note(name, (end, 0), (0, -4), fontsize=size, va="top", ha=side)
 
 
-def scale_bar(ax, box, size):
+def scale_bar(panel, size):
     """A bar of 1, 10 or 100 m in the upper right corner, at most a sixth of the width. size: of its text [pt]"""
-    length = 10.0 ** max(0, math.floor(math.log10((box[1] - box[0]) / 6)))
-    right, up = box[1] - 0.25, box[3] - 0.35
-    ax.plot([right - length, right], [up, up], color="black", linewidth=0.3 * size, solid_capstyle="butt")
-    ax.annotate(f"{length:g} m", (right, up), (0, -0.4 * size), textcoords="offset points", fontsize=size, ha="right",
-                va="top")
+    left, right, _, top = panel.window.box
+    length = 10.0 ** max(0, math.floor(math.log10((right - left) / 6)))
+    right, up = right - 0.25, top - 0.35
+    panel.plot([right - length, right], [up, up], color="black", linewidth=0.3 * size, solid_capstyle="butt")
+    panel.note(f"{length:g} m", (right, up), (0, -0.4 * size), panel.plane, fontsize=size, ha="right", va="top")
 
 
 def kind_entries(solids):
@@ -191,17 +179,23 @@ def kind_entries(solids):
             if kind in colours]
 
 
-def sheet_entries(states):
-    """Legend entries of the states of wall sheets that occur."""
-    return [Patch(facecolor=colors.SHEETS[state], edgecolor=INK, linewidth=0.6, label=name)
-            for state, name in SHEET_NAMES.items() if state in states]
+def wall_solids(plates, states):
+    """Solids of Plates in the world that show states of the sheets."""
+    return [Solid(f"wall {states[plate.sheet]}", plate.vertices, plate.faces, colors.SHEETS[states[plate.sheet]])
+            for plate in plates]
+
+
+def wall_entries(kinds):
+    """Legend entries of the kinds of walls that occur."""
+    return [Patch(facecolor=colors.SHEETS[kind.removeprefix("wall ")], edgecolor=INK, linewidth=0.6, label=name)
+            for kind, name in WALL_NAMES.items() if kind in kinds]
 
 
 def legend(figure, solids, states, size):
     """Legend of colours and marks, at the bottom. states: of the marks; size: of the text, reduced to fit [pt]"""
     entries = kind_entries(solids)
     entries.append(Line2D([], [], color=INK, linewidth=0.9, linestyle="dashed", label="house at the start"))
-    entries += sheet_entries({state.removeprefix("wall ") for state in states if state.startswith("wall ")})
+    entries += wall_entries(states)
     names = MARK_NAMES | ({"broken": "joint or wall broken (pale: hidden)"} if "wall broken" in states else {})
     entries += [Line2D([], [], linestyle="none", label=name, **marker(state, 0.8 * size))
                 for state, name in names.items() if state in states]

@@ -19,8 +19,8 @@ from yade_timber.log import starts
 from ..base.atomic_write import write_bytes, write_text
 from ..base.errors import RunError
 from ..base.files import make_folder
-from ..recording.record import placed, rotated
-from .panels import plates, states
+from ..recording.record import rotated
+from .panels import STATES, placed_plates, plates, states
 
 try:
     from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
@@ -29,8 +29,6 @@ try:
     from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 except ImportError:
     raise RunError("the export needs VTK's Python library; install the package python3-vtk9") from None
-
-STATES = {"whole": 0, "partly": 1, "broken": 2, "before": 3}
 
 
 def export(folder, frames, every=1):
@@ -89,15 +87,13 @@ def sheets(frames):
 
     def of_frame(frame):
         state = states(frames, frame)
-        shown = [plate for plate in made if plate.shows(state)]
+        shown = placed_plates(made, state, frames.position[frame], frames.orientation[frame])
         first = starts([plate.vertices for plate in shown])
-        position, orientation = frames.position[frame], frames.orientation[frame]
         data = vtkPolyData()
         data.SetPolys(cells([np.array(face) + start for plate, start in zip(shown, first) for face in plate.faces]))
         owner = np.array([plate.sheet for plate in shown for _ in plate.faces], int)
         add(data.GetCellData(), sheet=owner, state=np.array([STATES[name] for name in state], int)[owner])
-        return put_points(data, np.concatenate([np.empty((0, 3)), *(
-            placed(plate.vertices, position[plate.body], orientation[plate.body]) for plate in shown)]))
+        return put_points(data, np.concatenate([np.empty((0, 3)), *(plate.vertices for plate in shown)]))
 
     return of_frame
 

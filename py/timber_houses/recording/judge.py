@@ -88,8 +88,13 @@ def _first(flags):
 
 def at_columns(axes):
     """(largest, largest median) of the drifts at columns, each (2,) north-south and east-west [-]. axes: (F, C, 3)"""
-    count = np.isfinite(axes[..., 2]) & (axes[..., 2] >= math.cos(FALLEN_ANGLE))
-    drift = np.where(count[..., None], axes[..., NORTH_EAST], np.nan)[count.any(1)]
-    if not len(drift):
+    stands = axes[..., 2] >= math.cos(FALLEN_ANGLE)  # not of NaN
+    some = stands.any(1)
+    if not some.any():
         return np.zeros(2), np.zeros(2)
-    return np.nanmax(np.abs(drift), (0, 1)), np.abs(np.nanmedian(drift, 1)).max(0)
+    drift = axes[some][..., NORTH_EAST]
+    drift[~stands[some]] = np.nan
+    largest, count = np.nanmax(np.abs(drift), (0, 1)), stands[some].sum(1)
+    drift.sort(1)  # NaN behind; np.nanmedian takes ten times as long
+    frames = np.arange(len(drift))
+    return largest, np.abs((drift[frames, (count - 1) // 2] + drift[frames, count // 2]) / 2).max(0)

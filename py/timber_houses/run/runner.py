@@ -251,7 +251,7 @@ class Run(Stoppable):
         self.options.say(sentence(self.summary))
         with os_errors(lambda fault: f"{self.options.folder}: the results are written, the pictures are not ({fault});"
                                      " scripts/show/show_run.py makes them"):
-            written += all_pictures.draw(self.options.folder, self.options.views, self.options.report)
+            written += all_pictures.write(self.options.folder, views=self.options.views, page=self.options.report)
         written += [path for path in (self.options.export, self.checkpoint_path) if path and path.exists()]
         self.options.say("written: " + ", ".join(str(path) for path in written))
         if not self.options.no_frames:

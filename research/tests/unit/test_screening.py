@@ -73,9 +73,7 @@ def test_connections(tmp_path):
 def test_columns_on_the_foundation(tmp_path):
     first, second = built(tmp_path, "C"), built(tmp_path, "C", supports=True)
     assert first.of_kind("sill") and not second.of_kind("sill")
-    feet = [{model.element(joint.b).kind
-             for joint in model.joints
-             if joint.end == "bottom" and joint.storey == 1}
+    feet = [{model.element(joint.b).kind for joint in model.joints if joint.end == "bottom" and joint.storey == 1}
             for model in (first, second)]
     assert feet == [{"sill"}, {"foundation"}]
     assert first.counts()["joints_by_kind"] == second.counts()["joints_by_kind"]
@@ -192,10 +190,8 @@ def test_collect():
         entry for entry in cells.plan([*MOTIONS, cells.synthetic(9, 15.0, 29.0)], 4e-4) if entry.cell in (2, 3, 4)
     ]
     missing = {(3, "modelB_quake", "seed0")}
-    known = [
-        entry.cell < 4 and entry.motion != "seed9" and (entry.cell, entry.run, entry.motion) not in missing
-        for entry in planned
-    ]
+    known = [entry.cell < 4 and entry.motion != "seed9" and (entry.cell, entry.run, entry.motion) not in missing
+             for entry in planned]
     results = collect(planned, [summary() if is_known else None for is_known in known])
     assert results.cells == [2, 3] and results.motions == ["seed3", "seed0"]
     assert np.isnan(results.values["falls_B"]).tolist() == [[False, False], [False, True]]

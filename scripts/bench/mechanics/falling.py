@@ -66,9 +66,8 @@ def braked(scene):
 
 add(key="tumbling_energy", title="tumbling box: energy", unit="-", scenes=tumble, measure=spin_energy,
     expected=constant(1.0), bound=EXACT, source="free rotation conserves energy", fault=braked)
-add(key="tumbling_momentum", title="tumbling box: momentum change", unit="-", scenes=tumble,
-    measure=momentum_change, expected=constant(0.0), bound=EXACT, source="free rotation conserves angular momentum",
-    fault=braked)
+add(key="tumbling_momentum", title="tumbling box: momentum change", unit="-", scenes=tumble, measure=momentum_change,
+    expected=constant(0.0), bound=EXACT, source="free rotation conserves angular momentum", fault=braked)
 
 # --- impacts ----------------------------------------------------------------------------------------------------------
 HEIGHTS = np.linspace(0.5, 1.0, 20)

@@ -81,9 +81,8 @@ def slope_way(degrees):
     return G * (math.sin(angle) - 0.5 * math.cos(angle)) / 2 * (11**2 - 1)
 
 
-add(key="slope_26", title="slope 26°, mu 0.5: way", unit="mm", scenes=slope_26, measure=creep,
-    expected=constant(0.0), bound=STANDS, source="Coulomb: tan 26° < mu",
-    fault=lambda scene: replace(scene, friction=0.48))
+add(key="slope_26", title="slope 26°, mu 0.5: way", unit="mm", scenes=slope_26, measure=creep, expected=constant(0.0),
+    bound=STANDS, source="Coulomb: tan 26° < mu", fault=lambda scene: replace(scene, friction=0.48))
 add(key="slope_27", title="slope 27°, mu 0.5: way", unit="m", scenes=slope_27,
     measure=way_down, expected=constant(slope_way(27)), bound=0.02, relative=True,
     source="g (sin 27° - mu cos 27°) (11² - 1) s² / 2", fault=lambda scene: replace(scene, friction=0.498))
@@ -104,9 +103,8 @@ def moved(run):
     return float(1e3 * np.linalg.norm(places - places[0], axis=1).max())
 
 
-add(key="neighbours", title="beside a sliding block: movement", unit="mm", scenes=neighbours,
-    measure=moved, expected=constant(0.0), bound=STANDS, source="Coulomb",
-    fault=lambda scene: replace(scene, friction=0.36))
+add(key="neighbours", title="beside a sliding block: movement", unit="mm", scenes=neighbours, measure=moved,
+    expected=constant(0.0), bound=STANDS, source="Coulomb", fault=lambda scene: replace(scene, friction=0.36))
 
 
 # --- seams of flush faces ---------------------------------------------------------------------------------------------
@@ -121,9 +119,8 @@ def kept_speed(run):
     return float(run.velocity["box"][-1, 0] / 3.0)
 
 
-add(key="tiles", title="flush tiles: velocity kept", unit="-", scenes=tiles, measure=kept_speed,
-    expected=constant(1.0), bound=EXACT, source="no force along a flush plane",
-    fault=lambda scene: replace(scene, friction=0.002))
+add(key="tiles", title="flush tiles: velocity kept", unit="-", scenes=tiles, measure=kept_speed, expected=constant(1.0),
+    bound=EXACT, source="no force along a flush plane", fault=lambda scene: replace(scene, friction=0.002))
 
 
 def seam(radius):
@@ -189,9 +186,8 @@ def newmark_slip(share, step=1e-6):
     return 1e3 * slip
 
 
-add(key="shaken_weakly", title="shaken table, 0.15 g: slip", unit="mm",
-    scenes=shaken_weakly, measure=largest_slip, expected=constant(0.0), bound=STANDS, source="0.15 < mu",
-    fault=lambda scene: replace(scene, friction=0.12))
+add(key="shaken_weakly", title="shaken table, 0.15 g: slip", unit="mm", scenes=shaken_weakly, measure=largest_slip,
+    expected=constant(0.0), bound=STANDS, source="0.15 < mu", fault=lambda scene: replace(scene, friction=0.12))
 add(key="shaken_strongly", title="shaken table, 0.5 g: slip", unit="mm", scenes=shaken_strongly,
     measure=last_slip, expected=lambda radius: newmark_slip(0.5), bound=0.05, relative=True,
     source="Newmark's sliding block, 1965", fault=lambda scene: replace(scene, friction=0.25))

@@ -77,9 +77,8 @@ def stronger(scene):
     return replace(scene, joints=(replace(joint, strength=1.1 * joint.strength),))
 
 
-add(key="pulled", title="slow pull: break over strength", unit="-", scenes=pulled,
-    measure=break_force, expected=constant(1.0), bound=EXACT, source="statics", needs=frozenset({"breaks"}),
-    fault=stronger)
+add(key="pulled", title="slow pull: break over strength", unit="-", scenes=pulled, measure=break_force,
+    expected=constant(1.0), bound=EXACT, source="statics", needs=frozenset({"breaks"}), fault=stronger)
 
 HAMMER, SPEED, STIFF = 10.0, 10.0, 1e8
 """Mass [kg] and velocity [m/s] of the hammer; stiffness of the joint [N/m]."""
@@ -106,7 +105,6 @@ def largest_share(radius):
     return STRENGTH**2 / (2 * STIFF) / (HAMMER * SPEED**2)
 
 
-add(key="struck", title="struck stiff joint: impulse share", unit="-", scenes=struck,
-    measure=taken_impulse, expected=largest_share, bound=EXACT, source="energy to break S² / 2k",
-    needs=frozenset({"breaks"}),
+add(key="struck", title="struck stiff joint: impulse share", unit="-", scenes=struck, measure=taken_impulse,
+    expected=largest_share, bound=EXACT, source="energy to break S² / 2k", needs=frozenset({"breaks"}),
     fault=lambda scene: replace(scene, joints=(replace(scene.joints[0], strength=1e6),)))

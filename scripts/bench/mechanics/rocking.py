@@ -147,8 +147,7 @@ def wider(scene):
     return replace(scene, bodies=(floor, replace(block, extents=(1.1 * B, B, H))))
 
 
-add(key="rocking_time", title="rocking: time to upright", unit="s", scenes=rock,
-    measure=time_to_upright,
+add(key="rocking_time", title="rocking: time to upright", unit="s", scenes=rock, measure=time_to_upright,
     expected=lambda radius: swing_time(0, START * critical(radius), START * critical(radius), radius), bound=EXACT,
     relative=True, source="quadrature of the rolling block", fault=farther)
 add(key="rocking_energy", title="rocking: energy after impact", unit="-", scenes=rock,
@@ -157,10 +156,9 @@ add(key="rocking_energy", title="rocking: energy after impact", unit="-", scenes
 add(key="rocking_state", title="rocking: tilt in 4th second", unit="-", scenes=rock,
     measure=lambda run: late_ratio(run, run.scene.radius), expected=constant(1.0), bound=0.1,
     source="Housner 1963, impact by impact", fault=farther)
-add(key="toppling", title="column at 1.1 critical: fall time", unit="s", scenes=topple,
-    measure=topple_time, expected=lambda radius: swing_time(STEEP * critical(radius), 1.0, STEEP * critical(radius),
-                                                            radius),
-    bound=EXACT, relative=True, source="quadrature of the rolling block", fault=wider)
+add(key="toppling", title="column at 1.1 critical: fall time", unit="s", scenes=topple, measure=topple_time,
+    expected=lambda radius: swing_time(STEEP * critical(radius), 1.0, STEEP * critical(radius), radius), bound=EXACT,
+    relative=True, source="quadrature of the rolling block", fault=wider)
 
 # --- row of falling blocks --------------------------------------------------------------------------------------------
 BLOCKS = BlockRow(0.48, 0.075, 0.2235, 12, 2.0)
@@ -214,8 +212,7 @@ def pendulum(name, degrees, duration):
     angle = math.radians(degrees)
     place = (-LENGTH * math.sin(angle), 0.0, 3 - LENGTH * math.cos(angle))
     turn = (math.cos(angle / 2), 0.0, math.sin(angle / 2), 0.0)
-    bodies = (Body("anchor", (0, 0, 3.5), (0.2, 0.2, 0.2)),
-              Body("bob", place, BOB, mass=10.0, orientation=turn))
+    bodies = (Body("anchor", (0, 0, 3.5), (0.2, 0.2, 0.2)), Body("bob", place, BOB, mass=10.0, orientation=turn))
     return Scene(name, duration, bodies, (Joint("ball", "anchor", "bob", ((0.0, 0.0, 3.0),), stiffness=1e7),))
 
 
@@ -266,6 +263,5 @@ def damped_start(scene):
 add(key="pendulum_period", title="pendulum 30°: period", unit="s", scenes=wide_swing, measure=period,
     expected=lambda radius: exact_period(), bound=EXACT, relative=True, source="4 (l/g)^½ K(sin 15°)",
     needs=frozenset({"ball"}), fault=lighter)
-add(key="pendulum_amplitude", title="pendulum 5°: amplitude", unit="-", scenes=small_swing,
-    measure=kept_amplitude, expected=constant(1.0), bound=0.02, source="no damping", needs=frozenset({"ball"}),
-    fault=damped_start)
+add(key="pendulum_amplitude", title="pendulum 5°: amplitude", unit="-", scenes=small_swing, measure=kept_amplitude,
+    expected=constant(1.0), bound=0.02, source="no damping", needs=frozenset({"ball"}), fault=damped_start)

@@ -92,8 +92,7 @@ def fallen(run):
     return float(crown_sunk(run) > 0.1)
 
 
-add(key="arch_stands", title="arch t/R 0.115: crown sunk", unit="-",
-    scenes=thick_arch, measure=crown_sunk, expected=constant(0.0), bound=0.002,
-    source="Milankovitch: stands above 0.1075", fault=lambda scene: arch(0.1, 4.0))
+add(key="arch_stands", title="arch t/R 0.115: crown sunk", unit="-", scenes=thick_arch, measure=crown_sunk,
+    expected=constant(0.0), bound=0.002, source="Milankovitch: stands above 0.1075", fault=lambda scene: arch(0.1, 4.0))
 add(key="arch_falls", title="arch t/R 0.1: falls (1)", unit="-", scenes=thin_arch, measure=fallen,
     expected=constant(1.0), bound=0.5, source="Milankovitch: falls below 0.1075", fault=lambda scene: arch(0.13, 4.0))

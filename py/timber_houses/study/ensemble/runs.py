@@ -48,6 +48,6 @@ def _write(options, planned, done, errors):
     with os_errors(lambda fault: f"{options.folder}: the results cannot be written ({fault}); repeat the command"):
         content = results.content(done, errors)
         written = [*results.write(options.folder, content, done, planned),
-                   *all_pictures.draw(options.folder, options.views, options.report)]
+                   *all_pictures.write(options.folder, views=options.views, page=options.report)]
     shown = done[content["shown"]]
     return "\n".join([*results.lines(content, shown), "written: " + ", ".join(map(str, written))])

@@ -23,8 +23,7 @@ def havok(name="Havok", more="", **options):
 
 
 def cannon():
-    return engine_program("cannon", "cannon-es", "cannon-es", "damping 0, created unrotated",
-                          lacks=(UNBREAKABLE,))
+    return engine_program("cannon", "cannon-es", "cannon-es", "damping 0, created unrotated", lacks=(UNBREAKABLE,))
 
 
 def bullet(name="Bullet", more="", **options):
