@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """`run`: scripts/house.py as a function, with its options as keywords."""
 import signal
-from contextlib import contextmanager
 from pathlib import Path
 
 from yade_timber import host
@@ -85,26 +84,18 @@ def _complete(options):
     options.check()
     scenario = planned(options)
     _used.add(options.folder.resolve())
+    handlers = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
     try:
-        with _restored_handlers():
-            session.complete(scenario, options)
+        session.complete(scenario, options)
     except Interrupted as stop:
         if stop.number == signal.SIGTERM:
             raise SystemExit(128 + stop.number) from None
         raise KeyboardInterrupt(f"stopped at {stop.time:.2f} s; th.run(..., out='{options.folder}', resume=True)"
                                 " continues") from None
-    return RunResult(options.folder)
-
-
-@contextmanager
-def _restored_handlers():
-    """The session's own signal handlers again at the end: an interrupted run keeps its handlers."""
-    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
-    try:
-        yield
-    finally:
-        for number, handler in before.items():
+    finally:  # an interrupted run keeps its handlers
+        for number, handler in handlers.items():
             signal.signal(number, handler)
+    return RunResult(options.folder)
 
 
 def _default_folder(house):

@@ -25,6 +25,16 @@ def os_errors(message):
         raise RunError(message(problem.strerror)) from None
 
 
+@contextmanager
+def located(place, kind=RunError, known=None):
+    """Context in which an InputError gets a place before its message, unless that begins so or with a `known` text."""
+    try:
+        yield
+    except InputError as problem:
+        text = str(problem)
+        raise kind(text if text.startswith(place if known is None else known) else f"{place}: {text}") from None
+
+
 def one_line(text):
     """`text` with line breaks, control characters and lone surrogates escaped, at most MAX_MESSAGE characters long."""
     if len(text) > MAX_MESSAGE:

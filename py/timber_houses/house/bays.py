@@ -62,8 +62,9 @@ def free_bays(description):
 
 def free_wall_bays(description, kind):
     """Names of walls of a type that can be added, e.g. 'main.wall1.EW.y0.3-4.plywood'; one for each free bay."""
-    return [str(BayName(structure.name, storey, *bay, kind)) for structure, storey in _storeys(description)
-            for walled in [_walled(structure, storey)] for _, bay in _bays(structure, storey) if bay not in walled]
+    return [str(BayName(structure.name, storey, along, at, low, high, kind))
+            for structure, storey in _storeys(description) for walled in [_walled(structure, storey)]
+            for _, (along, at, low, high) in _bays(structure, storey) if (along, at, low, high) not in walled]
 
 
 def _storeys(description):

@@ -7,7 +7,6 @@ import numpy as np
 from .check import check_house
 from .damage import apply_damage
 from .description import require_snow_depth
-from .errors import HouseError
 from .frame import Frame
 from .geometry import box
 from .grid import Grid
@@ -16,6 +15,7 @@ from .layout import FRAME
 from .loads import apply_loads
 from .missing_joints import warn_of_missing_joints
 from .model import Element, HouseModel
+from .schema import fail
 from .structure import OUTWARD, require_few
 from .wall_types import has_rated_walls
 
@@ -36,8 +36,8 @@ def build_house(description, snow_depth=None, check=True, wall_level=None):
     _number_repeats(elements)
     apply_loads(elements, structures, data["loads"])
     if depth > 0 and not any(element.kind == "snow" for element in elements):
-        raise HouseError(f"{data['snow'].at('depth')}: snow: {depth:g} m of snow, but no roof for it; "
-                         f"add a roof layer without 'snow: false' or set the depth to 0")
+        fail(data["snow"].at("depth"), "snow", f"{depth:g} m of snow, but no roof for it; add a roof layer without"
+             " 'snow: false' or set the depth to 0")
     joints = find_joints(elements, data, {pair: rule for s in structures.values() for pair, rule in s.named.items()})
     for structure in structures.values():
         joints += structure.further_joints(elements, joints, data, level)
@@ -61,8 +61,8 @@ def _structures(data):
         structures[FRAME] = Frame(data["frame"], data["materials"])
     name, main = next(iter(structures.items()))
     if not main.levels:
-        raise HouseError(f"{main.table.where}: structures.{name}: the first structure needs a layer of columns, as its"
-                         " storey drifts are reported; put a structure with columns first")
+        fail(main.table.where, f"structures.{name}", "the first structure needs a layer of columns, as its storey"
+             " drifts are reported; put a structure with columns first")
     return structures
 
 
@@ -91,8 +91,8 @@ def _ground(data, structures):
     half = ground["size"] / 2
     reach = max(np.abs(np.array(structure.area()) - centre).max() for structure in structures.values())
     if reach > half:
-        raise HouseError(f"{ground.at('size')}: ground.size: {ground['size']:g} m is smaller than the house; give at"
-                         f" least {2 * reach:.3g} m")
+        fail(ground.at("size"), "ground.size", f"{ground['size']:g} m is smaller than the house; give at least"
+             f" {2 * reach:.3g} m")
     vertices = box([*(centre - half), -ground["thickness"]], [*(centre + half), 0.0])
     material = ground["material"]
     return Element("ground", "ground", vertices, material, data["materials"][material]["density"], True,

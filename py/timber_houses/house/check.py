@@ -18,7 +18,8 @@ def check_house(model):
     gaps = overlaps(model)
     deepest = min(gaps, key=lambda row: row[2], default=None)
     if deepest and deepest[2] < -TOUCH:
-        _report_overlap(*deepest, sum(gap < -TOUCH for _, _, gap in gaps))
+        a, b, gap = deepest
+        _report_overlap(a, b, gap, sum(gap < -TOUCH for _, _, gap in gaps))
     touching = [(a, b) for a, b, gap in gaps if gap < TOUCH]
     _check_ends(model, touching)
     _check_supports(model, touching)

@@ -9,6 +9,7 @@ from .geometry import halfspace_vertices
 from .layout import MAX_STOREYS, MIN_SPACING, PLACE
 from .limits import MAX_ELEMENTS
 from .model import Element
+from .schema import fail
 
 ACROSS = {"x": "y", "y": "x"}
 ENDS = {"x": ("west", "east"), "y": ("south", "north")}
@@ -121,27 +122,25 @@ def _positions(axis, path):
     if axis["positions"] is None:
         return axis["module"] * np.arange((axis["count"] or 1) + 1)
     if axis["count"] is not None:
-        raise HouseError(f"{axis.at('count')}: {path}.count: has no effect beside positions; remove it")
+        fail(axis.at("count"), f"{path}.count", "has no effect beside positions; remove it")
     positions = np.array(axis["positions"])
     if len(positions) < 2 or (np.diff(positions) < MIN_SPACING).any():
-        raise HouseError(f"{axis.at('positions')}: {path}.positions: give at least two positions in rising order,"
-                         f" {MIN_SPACING:g} m or more apart")
+        fail(axis.at("positions"), f"{path}.positions", f"give at least two positions in rising order, {MIN_SPACING:g}"
+             " m or more apart")
     return positions
 
 
 def _origin(table, local, others, name):
     """World position (2,) [m] of the structure's grid origin."""
-    place = table["place"]
+    place, path = table["place"], f"structures.{name}.place"
     if place["origin"] is not None:
         for key in ("side", "align", "gap", "shift"):
             if place[key] != PLACE.fields[key].default:
-                raise HouseError(f"{place.at(key)}: structures.{name}.place.{key}: belongs to 'beside'; change the"
-                                 " origin instead")
+                fail(place.at(key), f"{path}.{key}", "belongs to 'beside'; change the origin instead")
         return np.array(place["origin"])
     if place["beside"] not in others:
-        earlier = ", ".join(others) or "none yet"
-        raise HouseError(f"{place.at('beside')}: structures.{name}.place: no structure '{place['beside']}' before this"
-                         f" one; known: {earlier}")
+        fail(place.at("beside"), path, f"no structure '{place['beside']}' before this one; known:"
+             f" {', '.join(others) or 'none yet'}")
     low, high = others[place["beside"]].area()
     size = np.array([local[axis][-1] - local[axis][0] for axis in "xy"])
     start = np.array([local[axis][0] for axis in "xy"])
@@ -150,8 +149,8 @@ def _origin(table, local, others, name):
     corner = (low + high - size) / 2
     if place["align"] != "middle":
         if (place["align"] in ("east", "west")) == (out == 0):
-            raise HouseError(f"{place.at('align')}: structures.{name}.place.align: on the {place['side']} side, "
-                             f"align {' or '.join(('north', 'south') if out == 0 else ('east', 'west'))}")
+            fail(place.at("align"), f"{path}.align", f"on the {place['side']} side, align"
+                 f" {' or '.join(('north', 'south') if out == 0 else ('east', 'west'))}")
         corner = high - margin - size if place["align"] in ("east", "north") else low + margin
     corner = corner + place["shift"]
     clear = place["gap"] + margin
@@ -165,13 +164,12 @@ def _layers(stack, name):
     for i, table in enumerate(stack):
         kind = table["layer"]
         storey += kind == "columns"
+        place = table.at("layer"), f"structures.{name}.stack[{i + 1}]"
         if layers and layers[-1].kind == "roof" and kind != "roof":
-            raise HouseError(f"{table.at('layer')}: structures.{name}.stack[{i + 1}]: nothing can stand on a roof; make"
-                             " roofs the last layers")
+            fail(*place, "nothing can stand on a roof; make roofs the last layers")
         top = z + table.get("height", table.get("thickness"))
         if storey > MAX_STOREYS:
-            raise HouseError(f"{table.at('layer')}: structures.{name}.stack[{i + 1}]: more than {MAX_STOREYS} layers of"
-                             " columns; remove some")
+            fail(*place, f"more than {MAX_STOREYS} layers of columns; remove some")
         layers.append(Layer(table, kind, storey, z, top))
         z = z if kind == "roof" else top
     return layers

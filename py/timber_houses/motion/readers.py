@@ -3,6 +3,7 @@
 
 The record's components become the axes of the house (x east, y north, z up) through their azimuths, clockwise
 from north: K-NET's N-S is 0, PEER's 090 is 90, and 180 is north-south with its sign changed."""
+import os
 import re
 import warnings
 from os.path import commonprefix
@@ -97,14 +98,14 @@ def read_unchecked(record, component=None, units=None, angle=0.0, trim_to_shorte
 
 def find_files(record):
     """Files of a record: one file, a comma-separated list, or three files with a common prefix. Raises RecordError."""
-    path = _path(str(record))
+    path = Path(os.path.expanduser(str(record)))
     if is_file(path):
         return [path]
     if is_folder(path):
         raise RecordError(f"{record}: is a folder; give a file, three files or the prefix of three files")
     if exists(path):
         raise RecordError(f"{record}: not a regular file; copy its content to a file")
-    parts = [_path(part.strip()) for part in str(record).split(",")]
+    parts = [Path(os.path.expanduser(part.strip())) for part in str(record).split(",")]
     if len(parts) == 1 or is_folder(path.parent) and "," not in path.name:
         return _find_by_prefix(path)
     if len(parts) > MAX_COMPONENTS:
@@ -113,13 +114,6 @@ def find_files(record):
         if not is_file(part):
             raise RecordError(f"{part}: no such file, or not a regular one")
     return parts
-
-
-def _path(text):
-    try:
-        return Path(text).expanduser()
-    except RuntimeError:  # '~name' of an unknown user
-        return Path(text)
 
 
 def _find_by_prefix(prefix):

@@ -5,7 +5,7 @@ FirstBreak, Tilt (a storey drift passes verdict.TILT), Collapse (an upper floor 
 StructureFallen (another structure than the main one): at the time they happen; OwnWeight (damaged before the shaking):
 in the last frame before it; ColumnsLost, SnowFallen: at the end of the frame interval in which they happen.
 ShakingBegins, StrongestShaking, LevelPassed: of the player, not recorded."""
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, make_dataclass
 
 from ..base.json_types import decode, encode, require
 from .verdict import Structure
@@ -27,11 +27,6 @@ class Tilt:
     """direction: 'ns' or 'ew'"""
 
     direction: str
-
-
-@dataclass(frozen=True)
-class Collapse:
-    pass
 
 
 @dataclass(frozen=True)
@@ -65,22 +60,14 @@ class SnowFallen:
 
 
 @dataclass(frozen=True)
-class ShakingBegins:
-    pass
-
-
-@dataclass(frozen=True)
-class StrongestShaking:
-    pass
-
-
-@dataclass(frozen=True)
 class LevelPassed:
     """drift: one of verdict.LIMITS [-]"""
 
     drift: float
 
 
+Collapse, ShakingBegins, StrongestShaking = (  # without facts
+    make_dataclass(name, (), frozen=True) for name in ("Collapse", "ShakingBegins", "StrongestShaking"))
 RECORDED = {"first_break": FirstBreak, "tilt": Tilt, "collapse": Collapse, "own_weight": OwnWeight,
             "structure_fallen": StructureFallen, "columns_lost": ColumnsLost, "snow_fallen": SnowFallen}
 KINDS = {**RECORDED, "shaking_begins": ShakingBegins, "strongest_shaking": StrongestShaking, "level": LevelPassed}

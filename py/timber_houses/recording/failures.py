@@ -26,14 +26,12 @@ def first_failures(frames, most=MOST):
     """The failures of the joints whose first springs break first, in the order of time. Fewer where fewer break."""
     if frames.breaks is None:
         return []
-    first = {}
+    first, groups = {}, {}
     for time, joint, cause in sorted(zip(*(frames.breaks[key] for key in ("time", "joint", "cause"))),
                                      key=lambda entry: entry[0]):
         first.setdefault(int(joint), (float(time), cause))
-    groups = {}
     for joint, (time, cause) in first.items():
-        like = material(frames, joint), frames.joints.storey[joint], cause
-        earlier = groups.setdefault(like, [])
+        earlier = groups.setdefault((material(frames, joint), frames.joints.storey[joint], cause), [])
         if not earlier or time - earlier[-1][0] > ONE_TIME:
             earlier.append((time, []))
         earlier[-1][1].append(joint)

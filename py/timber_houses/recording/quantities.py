@@ -60,15 +60,14 @@ def storeys(samples, masses, motion=None):
     forces = rates + masses[:, None] * ground[:, None, :]  # (F, P, 3)
     middle = (time[1:] + time[:-1]) / 2
     columns, values = ["time [s]"], [middle]
-    for name, first in [("base_shear_{}", 0), *((f"shear_{{}}{k}", 2 * k) for k in range(1, len(masses) // 2 + 1))]:
-        columns += [f"{name.format(direction)} [N]" for direction in DIRECTIONS]
-        values += [-forces[:, first:, AXES[direction]].sum(1) for direction in DIRECTIONS]
-        if first:
-            name, level = "acceleration_{}" + str(first // 2), (forces[:, first] / masses[first] if masses[first] > 0
-                                                                else np.zeros((len(forces), 3)))
-        else:
-            name, level = "ground_acceleration_{}", ground
-        columns += [f"{name.format(axis)} [m/s2]" for axis in ("ns", "ew", "ud")]
+    for k in range(len(masses) // 2 + 1):  # 0: of the base
+        shear, acceleration = (f"shear_{{}}{k}", f"acceleration_{{}}{k}") if k else (
+            "base_shear_{}", "ground_acceleration_{}")
+        columns += [f"{shear.format(direction)} [N]" for direction in DIRECTIONS]
+        values += [-forces[:, 2 * k:, AXES[direction]].sum(1) for direction in DIRECTIONS]
+        level = (ground if k == 0 else forces[:, 2 * k] / masses[2 * k] if masses[2 * k] > 0
+                 else np.zeros((len(forces), 3)))
+        columns += [f"{acceleration.format(axis)} [m/s2]" for axis in ("ns", "ew", "ud")]
         values += [band_limited(middle, level[:, AXES[axis]]) for axis in ("ns", "ew", "ud")]
     return Storeys(tuple(columns), np.column_stack(values))
 

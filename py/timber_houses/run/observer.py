@@ -235,7 +235,10 @@ class Observer:
         """Note the events up to a time [s], that of the scene's state. last: whether it is the final state. Raises
         RuntimeError."""
         self.log.drop_after(time)
-        self._require_levels()
+        for storey, level in enumerate(self.main_levels, 1):  # whose drifts are reported
+            if all(O.bodies[mark] is None for mark in level.marks):
+                raise RuntimeError(f"{level.structure}: all bodies at the top of storey {storey} are erased: it has no"
+                                   " drift")
         self._rewind(time)
         self.read_samples()
         first = next(iter(find_engine(yw.JointEngine).breaks), None)
@@ -251,28 +254,15 @@ class Observer:
         if self.modes is None and time > SETTLED - O.dt / 2:
             self.modes = modes_now(self.main_levels)
         next_frame = math.inf if last else time + frames.steps_between(O.dt) * O.dt
-        if self.shaking is not None and time <= self.shaking < next_frame:
-            self._weigh(time, state)
-
-    def _require_levels(self):
-        """Raise RuntimeError if a level of the main structure, whose drifts are reported, has no body any more."""
-        for storey, level in enumerate(self.main_levels, 1):
-            if all(O.bodies[mark] is None for mark in level.marks):
-                raise RuntimeError(f"{level.structure}: all bodies at the top of storey {storey} are erased: it has no"
-                                   " drift")
+        if self.shaking is not None and time <= self.shaking < next_frame:  # or before the end of the run
+            structures = self.survey.by_structure(state, self.judge.structures)
+            if any(facts.verdict != UNDAMAGED for facts in structures.values()):
+                self.log.add(time, OwnWeight("snow" in self.survey.elements.kind, structures))
 
     def _note_falls(self):
-        main, *others = self.judge.structures.items()
-        if main[1].tilt_s is not None:
-            self.log.add(main[1].tilt_s, Tilt(main[1].tilt_direction))
-        if main[1].fall_s is not None:
-            self.log.add(main[1].fall_s, Collapse())
-        for name, judged in others:
+        main = self.judge.main
+        if main.tilt_s is not None:
+            self.log.add(main.tilt_s, Tilt(main.tilt_direction))
+        for name, judged in self.judge.structures.items():
             if judged.fall_s is not None:
-                self.log.add(judged.fall_s, StructureFallen(name))
-
-    def _weigh(self, time, state):
-        """Note the damage that the house has in its last frame before the shaking, or before the end of the run."""
-        structures = self.survey.by_structure(state, self.judge.structures)
-        if any(facts.verdict != UNDAMAGED for facts in structures.values()):
-            self.log.add(time, OwnWeight("snow" in self.survey.elements.kind, structures))
+                self.log.add(judged.fall_s, Collapse() if judged is main else StructureFallen(name))

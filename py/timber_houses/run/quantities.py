@@ -5,7 +5,6 @@ Element k of the HouseModel is body k of the scene, joint k is joint k of the Jo
 from collections import namedtuple
 from dataclasses import dataclass
 from operator import attrgetter
-from typing import Any
 
 import numpy as np
 import yade.wrapper as yw
@@ -68,15 +67,15 @@ def _shears(table, name):
     return Shear(sustained=sustained, peak=peak)
 
 
-JOINT_HEADER = {"name": "joint", "kind": "kind", "storey": "storey", "side": "side", "utilisation": "utilisation [-]",
-                "pull": "pull [N]", "shear": "shear [N]", "opening": "opening [m]", "strength": "strength [N]",
-                "per": "strength of", "broken": "broken springs [-]", "state": "state"}
-COLUMN_HEADER = {"name": "column", "structure": "structure", "storey": "storey", "east": "east [m]",
-                 "north": "north [m]", "uplift": "uplift [m]", "pull": "pull [N]", "utilisation": "utilisation [-]",
-                 "state": "state"}
-"""{attribute of a row: column} of joints.csv and columns.csv."""
-JointRow: Any = namedtuple("JointRow", JOINT_HEADER)
-ColumnRow: Any = namedtuple("ColumnRow", COLUMN_HEADER)
+JointRow = namedtuple("JointRow", ("name", "kind", "storey", "side", "utilisation", "pull", "shear", "opening",
+                                   "strength", "per", "broken", "state"))
+JOINT_HEADER = (*("joint", "kind", "storey", "side", "utilisation [-]", "pull [N]", "shear [N]", "opening [m]"),
+                *("strength [N]", "strength of", "broken springs [-]", "state"))
+ColumnRow = namedtuple("ColumnRow", ("name", "structure", "storey", "east", "north", "uplift", "pull", "utilisation",
+                                     "state"))
+COLUMN_HEADER = ("column", "structure", "storey", "east [m]", "north [m]", "uplift [m]", "pull [N]", "utilisation [-]",
+                 "state")
+"""Columns of joints.csv and columns.csv, as the entries of their rows."""
 
 
 def joint_rows(observed, peaks):
@@ -132,8 +131,8 @@ class Tables:
     def write(self, folder):
         """Write storeys.csv, joints.csv, columns.csv; returns their paths. Raises OSError."""
         self.storeys.write(folder / quantities.NAME)
-        write_text(folder / JOINTS, csv_text(JOINT_HEADER.values(), self.joints))
-        write_text(folder / COLUMNS, csv_text(COLUMN_HEADER.values(), self.columns))
+        write_text(folder / JOINTS, csv_text(JOINT_HEADER, self.joints))
+        write_text(folder / COLUMNS, csv_text(COLUMN_HEADER, self.columns))
         return [folder / name for name in NAMES]
 
 

@@ -58,16 +58,16 @@ class Stoppable:
     @contextmanager
     def _stop_signals(self):
         """Stop signals end the run after the present chunk; further ones have no effect."""
-        before = {number: signal.signal(number, self._on_signal) for number in STOP_SIGNALS}
+        def note(number, _frame):
+            self.signal = number
+
+        before = {number: signal.signal(number, note) for number in STOP_SIGNALS}
         try:
             yield
         finally:
             if not self.signal:
                 for number, handler in before.items():
                     signal.signal(number, handler)
-
-    def _on_signal(self, number, _frame):
-        self.signal = number
 
 
 class Run(Stoppable):

@@ -39,7 +39,9 @@ def summary(scenario, observed, histories, tables, wall_s, made_from, cut_off=No
     history, ends = next(iter(histories.values())), {name: drift.residual(one) for name, one in histories.items()}
     residual, amplitude = next(iter(ends.values()))
     simulated = round(O.iter * scenario.dt, 9)
-    structures = structures_of(observed, state, ends)
+    structures = {name: replace(facts, residual_drift=max(ends[name][0], default=0.0),  # means over the last periods
+                                settled=drift.has_settled(*ends[name]))
+                  for name, facts in survey.by_structure(state, observed.judge.structures).items()}
     created = compiled.created_energy()
     energy = (energy_balance(queries.energy(), created) if cut_off is None
               else energy_balance({name: float(history.energy(name)[-1]) if history.samples else 0.0
@@ -70,13 +72,6 @@ def summary(scenario, observed, histories, tables, wall_s, made_from, cut_off=No
         column_drift=ColumnDrifts(drift.by_storey(main.column_peak), drift.by_storey(main.median_peak)),
     )
     return judged(draft)
-
-
-def structures_of(observed, state, ends):
-    """{name: Structure} with residual drifts as means over the last periods. ends: {name: drift.residual}"""
-    found = observed.survey.by_structure(state, observed.judge.structures)
-    return {name: replace(facts, residual_drift=max(ends[name][0], default=0.0), settled=drift.has_settled(*ends[name]))
-            for name, facts in found.items()}
 
 
 def judged(draft):

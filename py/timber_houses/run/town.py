@@ -10,7 +10,7 @@ import yade.wrapper as yw
 from yade_timber.plugin import compiled
 
 from ..base.atomic_write import write_text
-from ..base.errors import InputError, RunError
+from ..base.errors import located
 from ..base.files import remove_parts
 from ..base.lock import prepare_folder
 from ..base.processors import processors
@@ -40,7 +40,7 @@ class TownRun(Stoppable):
         self.runs, self.scenes = [], []
         for lot, (scenario, lot_options) in zip(self.town.lots, plan.lots):
             prepare_folder(lot_options.folder, options.named("out"))
-            with name_lot(lot):
+            with located(f"lot {lot.name}", known=lot.where.rpartition(": ")[0]):
                 self.runs.append(Run(scenario, lot_options))
             self.scenes.append(O._sceneObj)
         self.lots = list(zip(self.town.lots, self.runs))
@@ -55,9 +55,9 @@ class TownRun(Stoppable):
     @contextmanager
     def _of(self, number):
         """Context in which the scene of a lot is YADE's current one; gives its Run."""
-        before = compiled.swap_scene(self.scenes[number])
+        before, lot = compiled.swap_scene(self.scenes[number]), self.town.lots[number]
         try:
-            with name_lot(self.town.lots[number]):
+            with located(f"lot {lot.name}", known=lot.where.rpartition(": ")[0]):
                 yield self.runs[number]
         finally:
             compiled.swap_scene(before)
@@ -177,14 +177,3 @@ def end_alone(run):
         yield
     except PhysicsError as problem:
         run.fault = str(problem)
-
-
-@contextmanager
-def name_lot(lot):
-    try:
-        yield
-    except InputError as problem:
-        text = str(problem)
-        if text.startswith(lot.where.rpartition(": ")[0]):
-            raise
-        raise RunError(f"lot {lot.name}: {text}") from None

@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Rows as tasks of the driver, all checked before the first run."""
-from contextlib import contextmanager
 from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
 from ...base.atomic_write import write_text
-from ...base.errors import InputError
+from ...base.errors import located
 from ...base.files import make_folder
 from ...base.notes import noted
 from ...house import build_house, changed_house, load_house
@@ -35,7 +34,7 @@ def task_of(row, folder):
 def check_rows(rows, folder):
     """Refuse rows that cannot be run; files of changed houses are written. Raises BatchError, OSError."""
     for row in rows:
-        with _located(row):
+        with located(row.place, BatchError):
             options = row.options.check()
             if options.record is not None or options.then is not None:
                 _read_record(options)
@@ -46,7 +45,7 @@ def _check_houses(rows, folder):
     """Build each different house once, in memory. Raises BatchError, OSError."""
     built = set()
     for row in rows:
-        with _located(row):
+        with located(row.place, BatchError):
             if row.changes != HouseChanges():
                 house, changes, path = row.options.house, row.changes, Path(folder) / row.name / HOUSE
                 data = changed_house(house, changes.set, changes.braces, changes.strength, row.where)
@@ -57,16 +56,6 @@ def _check_houses(rows, folder):
                 options = task_of(row, folder).options
                 build_house(load_house(options.house), options.snow, wall_level=options.walls)
         built.add(variant)
-
-
-@contextmanager
-def _located(row):
-    """Turns errors into a BatchError of one line that begins with the row's place."""
-    try:
-        yield
-    except InputError as problem:
-        text = str(problem)
-        raise BatchError(text if text.startswith(row.place) else f"{row.place}: {text}") from None
 
 
 @lru_cache(maxsize=256)
