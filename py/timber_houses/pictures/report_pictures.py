@@ -43,10 +43,9 @@ def plans(frames, failures=()):
 
 def draw_plan(axis, frames, storey):
     e = frames.elements
-    for k, kind in enumerate(e.kind):
-        if e.storey[k] != storey or kind not in ("column", "brace"):
+    for kind, corners, place in zip(e.kind, frames.all_corners(), e.storey):
+        if place != storey or kind not in ("column", "brace"):
             continue
-        corners = frames.corners_at_start(k)
         (x0, y0), (x1, y1) = corners[:, :2].min(0), corners[:, :2].max(0)
         if kind == "column":
             thick = max(x1 - x0, y1 - y0) >= THICK
