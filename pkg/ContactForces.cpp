@@ -135,7 +135,7 @@ void ContactForces::findIslands()
 		return p.points > 0 ? timber::Link(end(p.id1), end(p.id2)) : timber::noLink;
 	});
 	std::transform(joints.begin(), joints.end(), links.begin() + pairs.size(),
-	        [&](const ImplicitJoint& j) { return timber::Link(end(j.joint->id1), end(j.joint->id2)); });
+	        [&](const ImplicitJoint& j) { return timber::Link(end(j.joint->bodyA), end(j.joint->bodyB)); });
 	islands.find(bodies.size(), links);
 	supports.clear();
 	for (size_t k = 0; k < links.size(); ++k)
@@ -188,7 +188,7 @@ ContactForces::IslandResult ContactForces::solveIsland(timber::Islands::Island i
 	for (int k = 0; k < pairCount; ++k)
 		solver.addPair(pair(k).id1, pair(k).id2, pair(k).points);
 	for (int k = pairCount; k < count; ++k)
-		solver.addJoint(joint(k).joint->id1, joint(k).joint->id2);
+		solver.addJoint(joint(k).joint->bodyA, joint(k).joint->bodyB);
 	timber::forAll(count, [&](int k) {
 		if (k < pairCount)
 			timber::prepareContacts(solver, k, pair(k).phys->properties(), pair(k).geom->contactPoints,

@@ -9,43 +9,47 @@ namespace {
 
 	/// Modes of a joint's bodies, of which one is free, computed again where those of the last step no longer serve.
 	/// qA, qB: orientations of the bodies; h: step [s].
-	void updateModes(TimberJoint& joint, const Quaternionr& qA, const Quaternionr& qB, const timber::SolverBody& a,
-	        const timber::SolverBody& b, Real h)
+	void updateModes(timber::JointEntry& joint, const timber::JointSprings& springs, const Quaternionr& qA,
+	        const Quaternionr& qB, const timber::SolverBody& a, const timber::SolverBody& b, Real h)
 	{
-		const timber::JointState now { joint.intactSprings(), joint.stiffness(), timber::pairInverseMass(a, b),
+		const timber::JointState now { joint.intact, joint.stiffness, timber::pairInverseMass(a, b),
 			a.inverseInertia.trace() + b.inverseInertia.trace(), qA.conjugate() * qB };
-		if (!joint.modes.state.fits(now, joint.modes.largestTurn(h, joint.damping(1))))
-			joint.modes = timber::jointModes(a, b, qA.toRotationMatrix(), joint.springGroup(), now);
+		if (joint.modes.state.fits(now, joint.modes.largestTurn(h, joint.dampingAt(1)))) return;
+		const vector<Vector3r> anchors = springs.all(&timber::JointSprings::anchorA);
+		const vector<int> broken = springs.broken();
+		joint.modes = timber::jointModes(
+		        a, b, qA.toRotationMatrix(), { anchors, broken, joint.stiffness, joint.normal }, now);
 	}
 
 	/// Whether two bodies have a joint that may be in the solver; with its modes.
-	bool hasModes(TimberJoint& joint, const Scene& scene, const std::vector<timber::SolverBody>& bodies)
+	bool hasModes(timber::JointEntry& joint, const timber::JointSprings& springs, const Scene& scene,
+	        const std::vector<timber::SolverBody>& bodies)
 	{
-		if (joint.isBroken() || joint.id1 == joint.id2) return false;
-		const Body *b1 = bodyAt(scene, joint.id1), *b2 = bodyAt(scene, joint.id2);
+		if (joint.isBroken() || joint.bodyA == joint.bodyB) return false;
+		const Body *b1 = bodyAt(scene, joint.bodyA), *b2 = bodyAt(scene, joint.bodyB);
 		if (!b1 || !b2) return false;
-		const timber::SolverBody &a = bodies[joint.id1], &b = bodies[joint.id2];
+		const timber::SolverBody &a = bodies[joint.bodyA], &b = bodies[joint.bodyB];
 		if (timber::pairInverseMass(a, b) == 0) return false;
-		updateModes(joint, b1->state->ori, b2->state->ori, a, b, scene.dt);
+		updateModes(joint, springs, b1->state->ori, b2->state->ori, a, b, scene.dt);
 		return true;
 	}
 
 	/// Energy by which a yielding joint errs in this step if its springs cross a corner of their law. [J]
-	Real errorOfYielding(
-	        const TimberJoint& joint, const Scene& scene, const std::vector<timber::SolverBody>& bodies)
+	Real errorOfYielding(const timber::JointEntry& joint, const timber::JointSprings& springs, const Scene& scene,
+	        const std::vector<timber::SolverBody>& bodies)
 	{
-		const Quaternionr &qA = bodyAt(scene, joint.id1)->state->ori,
-		                  &qB = bodyAt(scene, joint.id2)->state->ori;
-		const timber::SolverBody &a = bodies[joint.id1], &b = bodies[joint.id2];
+		const Quaternionr &qA = bodyAt(scene, joint.bodyA)->state->ori,
+		                  &qB = bodyAt(scene, joint.bodyB)->state->ori;
+		const timber::SolverBody &a = bodies[joint.bodyA], &b = bodies[joint.bodyB];
+		const Real limit = timber::yieldTravel * joint.springStrength();
 		Real error = 0;
-		for (size_t k = 0; k < joint.broken.size(); ++k) {
-			if (joint.broken[k]) continue;
+		for (size_t k = 0; k < springs.count; ++k) {
+			if (!springs.isIntact(k)) continue;
 			const Real way = scene.dt
-			        * timber::relativeVelocity<double>(qA * joint.anchors1[k], qB * joint.anchors2[k],
+			        * timber::relativeVelocity<double>(qA * springs.anchorA(k), qB * springs.anchorB(k),
 			                a.newVelocity, a.newSpin, b.newVelocity, b.newSpin)
 			                  .norm();
-			if (way * joint.kn > timber::yieldTravel * joint.strength)
-				error += joint.stiffness().normal * way * way / 8;
+			if (way * joint.stiffness.normal > limit) error += joint.stiffness.normal * way * way / 8;
 		}
 		return error;
 	}
@@ -60,45 +64,42 @@ namespace {
 	}
 
 	/// A joint that stops being stiff without a step of the solver.
-	void release(TimberJoint& joint, ImplicitJointResult& result)
+	void release(timber::JointEntry& joint, ImplicitJointResult& result)
 	{
-		(joint.storedEnergy > 0 ? result.dashpots : result.debt) += math::abs(joint.storedEnergy);
+		(joint.account > 0 ? result.dashpots : result.debt) += math::abs(joint.account);
 		joint.soften();
 	}
 
-	/// Power of the bodies on the unbroken springs. forces: of these, world frame [N]; returns [W].
-	Real stretchingPower(const TimberJoint& joint, const State& a, const State& b, const vector<Vector3r>& forces)
+	/// Power of the bodies on the unbroken springs. [W]
+	Real stretchingPower(const timber::JointSprings& springs, const State& a, const State& b)
 	{
 		Real power = 0;
-		for (size_t k = 0; k < joint.broken.size(); ++k)
-			if (!joint.broken[k])
-				power += forces[k].dot(timber::relativeVelocity<double>(a.ori * joint.anchors1[k],
-				        b.ori * joint.anchors2[k], a.vel, a.angVel, b.vel, b.angVel));
+		for (size_t k = 0; k < springs.count; ++k)
+			if (springs.isIntact(k))
+				power += springs.force(k).dot(timber::relativeVelocity<double>(a.ori * springs.anchorA(k),
+				        b.ori * springs.anchorB(k), a.vel, a.angVel, b.vel, b.angVel));
 		return power;
 	}
 
-	timber::SpringSteps springSteps(TimberJoint& joint, const Scene& scene)
+	timber::SpringSteps springSteps(timber::JointEntry& joint, const timber::JointSprings& springs, const Scene& scene)
 	{
-		const State &s1 = *bodyAt(scene, joint.id1)->state, &s2 = *bodyAt(scene, joint.id2)->state;
+		const State &s1 = *bodyAt(scene, joint.bodyA)->state, &s2 = *bodyAt(scene, joint.bodyB)->state;
 		const Quaternionr toA = s1.ori.conjugate();
-		const vector<Vector3r> forces = joint.springForces();
-		std::unique_ptr<timber::SpringLaw> law = joint.springLaw();
 		std::vector<timber::SpringStep> steps;
-		for (size_t k = 0; k < joint.broken.size(); ++k) {
-			if (joint.broken[k]) continue;
-			const Vector3r end = toA * (s2.pos + s2.ori * joint.anchors2[k] - s1.pos),
-			               stretch = end - joint.anchors1[k], force = toA * forces[k];
+		for (size_t k = 0; k < springs.count; ++k) {
+			if (!springs.isIntact(k)) continue;
+			const Vector3r end = toA * (s2.pos + s2.ori * springs.anchorB(k) - s1.pos),
+			               stretch = end - springs.anchorA(k), force = toA * springs.force(k);
 			timber::SpringStep step { k, stretch, stretch, Vector3r::Zero(), joint.modes.rates(end),
 				force };
-			if (joint.isStiff()) step.from = joint.halfStretches[k];
+			if (joint.isStiff()) step.from = joint.half[k];
 			else step.applied = force;
 			steps.push_back(std::move(step));
 		}
-		const bool enters = !joint.isStiff();
-		timber::SpringSteps result(std::move(law), std::move(steps), joint.storedEnergy, scene.dt);
+		timber::SpringSteps result(joint.springLaw(), std::move(steps), joint.account, scene.dt);
 		// The bodies' velocities are those of half a step before the placement
-		if (enters)
-			result.account = result.startEnergy() - scene.dt / 2 * stretchingPower(joint, s1, s2, forces);
+		if (!joint.isStiff())
+			result.account = result.startEnergy() - scene.dt / 2 * stretchingPower(springs, s1, s2);
 		return result;
 	}
 
@@ -106,26 +107,25 @@ namespace {
 	void storeSprings(const timber::SpringSteps& steps, const Quaternionr& ori, const ImplicitJoint& implicit,
 	        ImplicitJointResult& result)
 	{
-		TimberJoint& joint = *implicit.joint;
-		joint.stiffen();
+		timber::JointEntry& joint = *implicit.joint;
+		joint.half.resize(implicit.all.count, Vector3r::Zero());
 		for (const timber::SpringStep& s : steps.springs) {
-			joint.halfStretches[s.spring] = s.stretch;
-			joint.stretches[s.spring] = ori * s.placed;
-			joint.forces[s.spring] = ori * s.force;
+			joint.half[s.spring] = s.stretch;
+			implicit.all.set(s.spring, ori * s.placed, ori * s.force);
 			if (!s.breaks) continue;
 			const auto cause = timber::breakCause(
-			        timber::springForce<double>(joint.stiffness(), s.stretch, joint.normal));
+			        timber::springForce<double>(joint.stiffness, s.stretch, joint.normal));
 			result.breaks.push_back({ implicit.index, { s.spring, cause, s.end.force.norm(), 0 } });
 		}
 	}
 
 	/// Forces of the springs about the bodies' centres. armA, armB: from these to the joint's centre
-	timber::JointForce totalForce(const timber::ModalConstraint& c, const TimberJoint& joint)
+	timber::JointForce totalForce(const timber::ModalConstraint& c, const timber::JointSprings& springs)
 	{
 		timber::JointForce total;
 		for (const timber::SpringStep& s : c.springs.springs) {
 			const Vector3r force = c.axesA * s.force,
-			               end = c.axesA * (s.placed + joint.anchors1[s.spring]); // from the centre of A
+			               end = c.axesA * (s.placed + springs.anchorA(s.spring)); // from the centre of A
 			total.force += force;
 			total.torqueA += end.cross(force);
 			total.torqueB -= (end - c.armA + c.armB).cross(force);
@@ -137,24 +137,22 @@ namespace {
 
 	/// Energies of a stiff joint after the step. A brittle one that the step resolves, and of which no spring breaks, goes
 	/// back to JointEngine, with the energy of explicit springs; it counts what they have beyond the account.
-	void storeEnergies(const timber::ModalConstraint& c, const ImplicitJoint& implicit, timber::JointForce& total,
-	        ImplicitJointResult& result)
+	void storeEnergies(const timber::ModalConstraint& c, timber::JointEntry& joint, ImplicitJointResult& result)
 	{
-		TimberJoint& joint = *implicit.joint;
 		const bool breaks = std::any_of(c.springs.springs.begin(), c.springs.springs.end(),
 		        [](const timber::SpringStep& s) { return s.breaks; });
 		Real& dissipated = joint.yields() ? result.yielded : breaks ? result.released : result.dashpots;
 		dissipated += c.springs.dissipated;
-		joint.storedEnergy = c.springs.account;
+		joint.account = c.springs.account;
 		if (!breaks && !joint.yields() && !joint.modes.isStiff(c.h / timber::softPhase)) {
 			const timber::SpringSteps::Leaving left = c.springs.leave(c.h, c.after);
 			dissipated += left.dissipated;
-			result.stored += total.energy = left.stored;
-			total.isKnown = true;
+			result.stored += joint.total.energy = left.stored;
+			joint.total.isKnown = true;
 			return joint.soften();
 		}
-		result.stored += joint.storedEnergy;
-		result.debt += math::max(Real(0), -joint.storedEnergy);
+		result.stored += joint.account;
+		result.debt += math::max(Real(0), -joint.account);
 	}
 }
 
@@ -176,19 +174,20 @@ ImplicitJointResult findImplicitJoints(const Scene& scene, const std::vector<tim
 	JointEngine* engine = findEngine<JointEngine>(scene);
 	if (!engine) return lost;
 	Real energy = -1; // of the scene, once a joint needs it
-	const auto isFast = [&](const TimberJoint& joint) {
-		const Real error = joint.yields() ? errorOfYielding(joint, scene, bodies) : 0;
+	timber::JointSet& set = engine->jointSet();
+	const auto isFast = [&](const timber::JointEntry& joint) {
+		const Real error = joint.yields() ? errorOfYielding(joint, set.springs(joint), scene, bodies) : 0;
 		if (error > 0 && energy < 0) energy = energyOf(*engine, bodies);
 		return error > 0 && error > timber::yieldError * energy;
 	};
-	for (size_t k = 0; k < engine->joints.size(); ++k) {
-		TimberJoint& joint = *engine->joints[k];
-		const bool may = (joint.isDamped() || alsoStiff) && hasModes(joint, scene, bodies);
+	for (size_t k = 0; k < set.joints.size(); ++k) {
+		timber::JointEntry& joint = set.joints[k];
+		const bool may = (joint.isDamped() || alsoStiff) && hasModes(joint, set.springs(joint), scene, bodies);
 		const bool isStiff
 		        = may && alsoStiff && (joint.isStiff() || joint.modes.isStiff(scene.dt) || isFast(joint));
 		if (may && (isStiff || joint.isDamped()))
-			implicit.push_back({ &joint, k, isStiff, engine->lastForce(k).tangent });
-		if (isStiff && !joint.isStiff()) engine->handOver(k);
+			implicit.push_back({ &joint, set.springs(joint), k, isStiff, joint.total.tangent });
+		if (isStiff && !joint.isStiff()) engine->handOver(joint);
 		if (!isStiff && joint.isStiff()) release(joint, lost);
 	}
 	return lost;
@@ -198,23 +197,23 @@ Real dashpotPower(const Scene& scene, const std::vector<timber::SolverBody>& bod
 {
 	const JointEngine* engine = findEngine<JointEngine>(scene);
 	Real power = 0;
-	for (size_t k = 0; engine && k < engine->joints.size(); ++k) {
-		TimberJoint& joint = *engine->joints[k];
-		if (joint.isDamped() && hasModes(joint, scene, bodies))
-			power += timber::dashpotPower(bodies[joint.id1], bodies[joint.id2], joint.modes,
-			        axesOf(scene, joint.id1), joint.damping(engine->lastForce(k).tangent));
+	for (size_t k = 0; engine && k < engine->jointSet().joints.size(); ++k) {
+		timber::JointEntry& joint = engine->jointSet().joints[k];
+		if (joint.isDamped() && hasModes(joint, engine->jointSet().springs(joint), scene, bodies))
+			power += timber::dashpotPower(bodies[joint.bodyA], bodies[joint.bodyB], joint.modes,
+			        axesOf(scene, joint.bodyA), joint.dampingAt(joint.total.tangent));
 	}
 	return power;
 }
 
 void prepareJoint(timber::ContactSolver& solver, size_t k, const ImplicitJoint& implicit, const Scene& scene)
 {
-	TimberJoint& joint = *implicit.joint;
+	timber::JointEntry& joint = *implicit.joint;
 	timber::SpringSteps springs;
-	if (implicit.isStiff) springs = springSteps(joint, scene);
+	if (implicit.isStiff) springs = springSteps(joint, implicit.all, scene);
 	const Real tangent = implicit.isStiff && joint.isDamped() ? springs.tangent() : implicit.tangent;
 	timber::ModalConstraint& c
-	        = solver.prepareJoint(k, joint.modes, axesOf(scene, joint.id1), joint.damping(tangent));
+	        = solver.prepareJoint(k, joint.modes, axesOf(scene, joint.bodyA), joint.dampingAt(tangent));
 	if (implicit.isStiff) timber::addSprings(c, std::move(springs));
 }
 
@@ -226,11 +225,10 @@ timber::PairForce storeJoint(const timber::ContactSolver& solver, size_t k, cons
 	const Vector3r force = P.linear / scene.dt, torque = P.angular / scene.dt;
 	result.dashpots += c.dissipated;
 	if (implicit.isStiff) {
-		const Quaternionr& ori = bodyAt(scene, implicit.joint->id1)->state->ori;
+		const Quaternionr& ori = bodyAt(scene, implicit.joint->bodyA)->state->ori;
 		storeSprings(c.springs, ori, implicit, result);
-		timber::JointForce total = totalForce(c, *implicit.joint);
-		storeEnergies(c, implicit, total, result);
-		findEngine<JointEngine>(scene)->setForce(implicit.index, total);
+		implicit.joint->total = totalForce(c, implicit.all);
+		storeEnergies(c, *implicit.joint, result);
 	}
 	return { force, -c.armA.cross(force) - torque, c.armB.cross(force) + torque };
 }

@@ -47,14 +47,14 @@ namespace {
 
 } // namespace
 
-SpringSteps::SpringSteps(std::unique_ptr<SpringLaw> l, std::vector<SpringStep> steps, double stored, double h)
-        : law(std::move(l))
+SpringSteps::SpringSteps(SpringLaw& l, std::vector<SpringStep> steps, double stored, double h)
+        : law(&l)
         , states(steps.size())
         , shared(steps.size(), Vec3::Zero())
         , springs(std::move(steps))
         , account(stored)
 {
-	assert(law && h > 0);
+	assert(h > 0);
 	double rates = 0;
 	for (SpringStep& s : springs) {
 		assert(isFinite(s.from) && isFinite(s.placed) && isFinite(s.applied) && isFinite(s.rates));

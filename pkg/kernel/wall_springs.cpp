@@ -6,10 +6,9 @@
 
 namespace timber {
 
-WallSprings::WallSprings(const WallLaw& law_, const Vec3& axis_, std::vector<WallHistory>& histories_)
+WallSprings::WallSprings(const WallLaw& law_, const Vec3& axis_)
         : law(law_)
         , axis(axis_)
-        , histories(histories_)
 {
 	assert(law.isValid() && isUnit(axis));
 }

@@ -8,17 +8,18 @@
 
 namespace timber {
 
-/// The springs of a wall. law and histories, one of each spring, are not copied.
+/// The springs of a wall.
 class WallSprings : public SpringLaw {
-	const WallLaw& law;
+	WallLaw law;
 	Vec3 axis;
-	std::vector<WallHistory>& histories;
 
 	SpringState along(const WallForce& force) const;
 
 public:
+	std::vector<WallHistory> histories; ///< of each spring
+
 	/// axis: unit vector in the frame of A
-	WallSprings(const WallLaw& law_, const Vec3& axis_, std::vector<WallHistory>& histories_);
+	WallSprings(const WallLaw& law_, const Vec3& axis_);
 	SpringState trial(size_t spring, const Vec3& to) const override;
 	SpringState commit(size_t spring, const Vec3& to) override;
 	bool isSpent(size_t spring) const override { return law.isSpent(histories[spring]); }

@@ -36,6 +36,7 @@ struct Assembly {
 	struct Springs {
 		std::vector<Vec3> half, forces; ///< z, F [m, N]
 		double account = 0; ///< [J]
+		BrittleSprings law {};
 	};
 	std::vector<Springs> history = {}; ///< of the joints
 	Vector displacements = {}; ///< x; empty: zero
@@ -177,7 +178,7 @@ struct Assembly {
 		}
 	}
 	/// Springs of a stiff joint, by whose explicit forces accelerate() has accelerated the bodies already.
-	SpringSteps springSteps(const Joint& j, const Springs& from, const JointModes& modes, double h) const
+	SpringSteps springSteps(const Joint& j, Springs& from, const JointModes& modes, double h) const
 	{
 		const Vector x = displacements.size() > 0 ? displacements : Vector(Vector::Zero(size()));
 		std::vector<SpringStep> steps;
@@ -189,7 +190,8 @@ struct Assembly {
 				        modes.rates(j.points[i] - bodies[j.a].position), from.forces[i] });
 		}
 		const JointStrength none { std::numeric_limits<double>::infinity(), false };
-		return { std::make_unique<BrittleSprings>(j.stiffness, none, j.normal), steps, from.account, h };
+		from.law = { j.stiffness, none, j.normal };
+		return { from.law, steps, from.account, h };
 	}
 	/// Dashpots of one step, and the springs of stiff joints beside explicit ones. Returns the dissipated energy.
 	double damp(double h, int sweeps = 50, double tolerance = 1e-14)

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "joint_set.hpp"
+#include <algorithm>
+#include <cassert>
+#include <numeric>
+
+namespace timber {
+namespace {
+
+	/// Of vectors, of which there is at least one.
+	Vec3 mean(const std::vector<Vec3>& v)
+	{
+		return std::accumulate(v.begin(), v.end(), Vec3(Vec3::Zero())) / double(v.size());
+	}
+}
+
+double JointSet::load(const JointEntry& joint)
+{
+	JointForce total;
+	for (const Vec3& f : springs(joint).all(&JointSprings::force)) {
+		total.sum += f.norm();
+		total.largestSquared = std::max(total.largestSquared, f.squaredNorm());
+	}
+	return joint.strength.load(total);
+}
+
+SpringsState JointSet::state(const JointEntry& joint)
+{
+	const JointSprings all = springs(joint);
+	SpringsState state { all.broken(), all.all(&JointSprings::stretch), all.all(&JointSprings::force), {}, {},
+		joint.half, joint.account, joint.modes };
+	if (const auto* slip = std::get_if<SlipSprings>(&joint.law)) state.slip = slip->histories;
+	if (const auto* wall = std::get_if<WallSprings>(&joint.law)) state.wall = wall->histories;
+	return state;
+}
+
+void JointSet::change(size_t index, JointParameters parameters, const std::vector<Vec3>& anchorsA,
+        const std::vector<Vec3>& anchorsB, SpringsState s)
+{
+	const size_t count = anchorsA.size();
+	assert(count > 0 && anchorsB.size() == count);
+	JointEntry& joint = joints[index];
+	static_cast<JointParameters&>(joint) = std::move(parameters);
+	if (groupsOf(count) > groupsOf(joint.springs)) {
+		joint.firstGroup = groups.size();
+		groups.resize(joint.firstGroup + groupsOf(count));
+	}
+	joint.springs = count;
+	const Vec3 none = Vec3::Zero();
+	s.broken.resize(count, 0);
+	s.stretches.resize(count, none);
+	s.forces.resize(count, none);
+	springs(joint).assign(anchorsA, anchorsB, s.broken);
+	for (size_t i = 0; i < count; ++i)
+		if (!s.broken[i]) springs(joint).set(i, s.stretches[i], s.forces[i]);
+	joint.intact = size_t(std::count(s.broken.begin(), s.broken.end(), 0));
+	s.slip.resize(count);
+	s.wall.resize(count);
+	if (auto* slip = std::get_if<SlipSprings>(&joint.law)) slip->histories = std::move(s.slip);
+	if (auto* wall = std::get_if<WallSprings>(&joint.law)) wall->histories = std::move(s.wall);
+	if (!s.half.empty()) s.half.resize(count, none);
+	joint.half = std::move(s.half);
+	joint.account = s.account;
+	joint.modes = s.modes;
+	joint.centreA = mean(anchorsA);
+	joint.centreB = mean(anchorsB);
+	isChanged = true;
+}
+
+size_t JointSet::take(JointSet& from, size_t index)
+{
+	const JointSprings old = from.springs(from.joints[index]);
+	const std::vector<SpringLanes> lanes(old.groups, old.groups + groupsOf(old.count));
+	JointEntry joint = std::move(from.joints[index]);
+	from.joints[index] = {};
+	joint.firstGroup = groups.size();
+	groups.insert(groups.end(), lanes.begin(), lanes.end());
+	joints.push_back(std::move(joint));
+	isChanged = from.isChanged = true;
+	return joints.size() - 1;
+}
+
+void JointSet::breakSpring(JointEntry& joint, size_t spring)
+{
+	joint.intact -= springs(joint).isIntact(spring);
+	springs(joint).breakSpring(spring);
+}
+
+void JointSet::breakAll(JointEntry& joint)
+{
+	for (size_t i = 0; i < joint.springs; ++i)
+		breakSpring(joint, i);
+}
+
+} // namespace timber
