@@ -76,12 +76,14 @@ namespace {
 		Real power = 0;
 		for (size_t k = 0; k < springs.count; ++k)
 			if (springs.isIntact(k))
-				power += springs.force(k).dot(timber::relativeVelocity<double>(a.ori * springs.anchorA(k),
-				        b.ori * springs.anchorB(k), a.vel, a.angVel, b.vel, b.angVel));
+				power += springs.force(k).dot(
+				        timber::relativeVelocity<double>(a.ori * springs.anchorA(k),
+				                b.ori * springs.anchorB(k), a.vel, a.angVel, b.vel, b.angVel));
 		return power;
 	}
 
-	timber::SpringSteps springSteps(timber::JointEntry& joint, const timber::JointSprings& springs, const Scene& scene)
+	timber::SpringSteps springSteps(
+	        timber::JointEntry& joint, const timber::JointSprings& springs, const Scene& scene)
 	{
 		const State &s1 = *bodyAt(scene, joint.bodyA)->state, &s2 = *bodyAt(scene, joint.bodyB)->state;
 		const Quaternionr toA = s1.ori.conjugate();

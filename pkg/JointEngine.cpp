@@ -204,8 +204,8 @@ void JointEngine::breakSprings(size_t index)
 	const timber::JointEntry& joint = set->joints[index];
 	const State &s1 = *bodyAt(*scene, joint.bodyA)->state, &s2 = *bodyAt(*scene, joint.bodyB)->state;
 	const timber::JointMotion motion { kinematics(s1), kinematics(s2), scene->dt };
-	for (const timber::SpringBreak& event : timber::springBreaks(joint.stiffness, joint.strength, placement(joint),
-	             joint.normal, set->springs(joint), motion))
+	for (const timber::SpringBreak& event : timber::springBreaks(
+	             joint.stiffness, joint.strength, placement(joint), joint.normal, set->springs(joint), motion))
 		breakSpring(index, event);
 	computeForce(index);
 }
@@ -214,8 +214,8 @@ void JointEngine::breakSprings(size_t index)
 void JointEngine::breakYielded(size_t index)
 {
 	timber::JointEntry& joint = set->joints[index];
-	for (const timber::SpringBreak& event : timber::spentSprings(joint.springLaw(), joint.stiffness,
-	             bodies[joint.bodyA].axes, joint.normal, set->springs(joint)))
+	for (const timber::SpringBreak& event : timber::spentSprings(
+	             joint.springLaw(), joint.stiffness, bodies[joint.bodyA].axes, joint.normal, set->springs(joint)))
 		breakSpring(index, event);
 }
 

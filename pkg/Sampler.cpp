@@ -125,7 +125,8 @@ void Sampler::recordJoint(const timber::JointEntry& joint, size_t k)
 	raise(opening[k], (s2.pos - s1.pos + s2.ori * joint.centreB - s1.ori * joint.centreA).dot(normal));
 	if (joint.isBroken()) return;
 	const Real along = joint.total.force.dot(normal); // on body 1
-	const bool isWall = joint.stiffness.shear == 0; // its springs act along the normal, which lies in the plane of the wall
+	const bool isWall
+	        = joint.stiffness.shear == 0; // its springs act along the normal, which lies in the plane of the wall
 	if (!isWall) raise(pull[k], along);
 	raise(shear[k], isWall ? math::abs(along) : (joint.total.force - along * normal).norm());
 	raise(load[k], joint.strength.load(joint.total));

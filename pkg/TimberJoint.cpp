@@ -79,7 +79,7 @@ void TimberJoint::validateEnvelope() const
 		largest = math::max(largest, point.y());
 	}
 	const char* const unmet = law == "wall" ? timber::WallLaw::unmetBy(wallCycles(1), envelopePoints(1))
-	                                 : timber::SlipLaw::unmetBy(kn, envelopePoints(1));
+	                                        : timber::SlipLaw::unmetBy(kn, envelopePoints(1));
 	require(!unmet, "TimberJoint.envelope", points.str(), unmet ? unmet : "");
 	require(math::abs(strength - largest) <= 1e-9 * largest, "TimberJoint.strength", strength,
 	        "the largest force of TimberJoint.envelope");
@@ -92,18 +92,15 @@ timber::SpringsState TimberJoint::takeState()
 	timber::SpringsState state = isSaved ? saved : set->state(entry());
 	if (!isSaved) state.modes = {}; // computed for other attributes
 	saved = {};
-	if (!broken.empty()) state.broken = std::move(broken);
-	if (!forces.empty()) state.forces = std::move(forces);
-	if (!stretches.empty()) state.stretches = std::move(stretches);
-	state.slip.resize(math::max(state.slip.size(), math::max(plasticStretches.size(), largestStretches.size())));
-	for (size_t k = 0; k < plasticStretches.size(); ++k)
-		state.slip[k].plastic = plasticStretches[k];
-	for (size_t k = 0; k < largestStretches.size(); ++k)
-		state.slip[k].largest = largestStretches[k];
-	for (vector<Vector3r>* taken : { &forces, &stretches, &plasticStretches })
-		taken->clear();
-	broken.clear();
-	largestStretches.clear();
+	const auto take = [](auto& from, auto& to) {
+		if (!from.empty()) to = std::move(from);
+		from.clear();
+	};
+	take(broken, state.broken);
+	take(forces, state.forces);
+	take(stretches, state.stretches);
+	take(plasticStretches, state.plastic);
+	take(largestStretches, state.largest);
 	return state;
 }
 
@@ -163,22 +160,6 @@ std::vector<timber::BackbonePoint> TimberJoint::backbone() const
 	if (!envelope.empty()) return envelopePoints(share());
 	return { { strength / kn, share() * strength }, { softeningStretch, share() * strength },
 		{ ultimateStretch, 0 } };
-}
-
-vector<Vector3r> TimberJoint::plastic() const
-{
-	vector<Vector3r> stretches;
-	for (const timber::SlipHistory& history : set->state(entry()).slip)
-		stretches.push_back(history.plastic);
-	return stretches;
-}
-
-vector<Real> TimberJoint::largest() const
-{
-	vector<Real> lengths;
-	for (const timber::SlipHistory& history : set->state(entry()).slip)
-		lengths.push_back(history.largest);
-	return lengths;
 }
 
 boost::python::list TimberJoint::pySprings() const

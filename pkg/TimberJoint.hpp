@@ -22,15 +22,11 @@ namespace serialization {
 		ar& make_nvp("stretch", h.stretch) & make_nvp("force", h.force) & make_nvp("largest", h.largest)
 		        & make_nvp("reversed", h.reversed);
 	}
-	template <class Archive> void serialize(Archive& ar, timber::SlipHistory& h, const unsigned int)
-	{
-		ar& make_nvp("plastic", h.plastic) & make_nvp("largest", h.largest);
-	}
 	template <class Archive> void serialize(Archive& ar, timber::SpringsState& s, const unsigned int)
 	{
 		ar& make_nvp("broken", s.broken) & make_nvp("stretches", s.stretches) & make_nvp("forces", s.forces);
-		ar& make_nvp("slip", s.slip) & make_nvp("wall", s.wall) & make_nvp("half", s.half);
-		ar& make_nvp("account", s.account) & make_nvp("modes", s.modes);
+		ar& make_nvp("plastic", s.plastic) & make_nvp("largest", s.largest) & make_nvp("wall", s.wall);
+		ar& make_nvp("half", s.half) & make_nvp("account", s.account) & make_nvp("modes", s.modes);
 	}
 }
 }
@@ -71,8 +67,8 @@ public:
 	void setBroken(const vector<int>&);
 	vector<Vector3r> springForces() const { return springs().all(&timber::JointSprings::force); }
 	vector<Vector3r> springStretches() const { return springs().all(&timber::JointSprings::stretch); }
-	vector<Vector3r> plastic() const;
-	vector<Real> largest() const;
+	vector<Vector3r> plastic() const { return set->state(entry()).plastic; }
+	vector<Real> largest() const { return set->state(entry()).largest; }
 	Real account() const { return entry().account; }
 	Real load() const { return set->load(entry()); }
 	boost::python::list pySprings() const;

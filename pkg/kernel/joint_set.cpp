@@ -27,9 +27,12 @@ double JointSet::load(const JointEntry& joint)
 SpringsState JointSet::state(const JointEntry& joint)
 {
 	const JointSprings all = springs(joint);
-	SpringsState state { all.broken(), all.all(&JointSprings::stretch), all.all(&JointSprings::force), {}, {},
+	SpringsState state { all.broken(), all.all(&JointSprings::stretch), all.all(&JointSprings::force), {}, {}, {},
 		joint.half, joint.account, joint.modes };
-	if (const auto* slip = std::get_if<SlipSprings>(&joint.law)) state.slip = slip->histories;
+	if (const auto* slip = std::get_if<SlipSprings>(&joint.law)) {
+		state.plastic = slip->plastic;
+		state.largest = slip->largest;
+	}
 	if (const auto* wall = std::get_if<WallSprings>(&joint.law)) state.wall = wall->histories;
 	return state;
 }
@@ -54,9 +57,13 @@ void JointSet::change(size_t index, JointParameters parameters, const std::vecto
 	for (size_t i = 0; i < count; ++i)
 		if (!s.broken[i]) springs(joint).set(i, s.stretches[i], s.forces[i]);
 	joint.intact = size_t(std::count(s.broken.begin(), s.broken.end(), 0));
-	s.slip.resize(count);
+	if (auto* slip = std::get_if<SlipSprings>(&joint.law)) {
+		s.plastic.resize(count, none);
+		s.largest.resize(count, 0);
+		slip->plastic = std::move(s.plastic);
+		slip->largest = std::move(s.largest);
+	}
 	s.wall.resize(count);
-	if (auto* slip = std::get_if<SlipSprings>(&joint.law)) slip->histories = std::move(s.slip);
 	if (auto* wall = std::get_if<WallSprings>(&joint.law)) wall->histories = std::move(s.wall);
 	if (!s.half.empty()) s.half.resize(count, none);
 	joint.half = std::move(s.half);

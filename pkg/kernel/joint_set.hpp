@@ -28,7 +28,8 @@ struct JointParameters {
 struct SpringsState {
 	std::vector<int> broken; ///< 1 for a broken spring, else 0
 	std::vector<Vec3> stretches, forces; ///< as in SpringLanes
-	std::vector<SlipHistory> slip; ///< SlipSprings alone
+	std::vector<Vec3> plastic; ///< SlipSprings alone
+	std::vector<double> largest; ///< likewise
 	std::vector<WallHistory> wall; ///< WallSprings alone
 	std::vector<Vec3> half; ///< stiff joints alone
 	double account = 0; ///< likewise
@@ -87,8 +88,8 @@ public:
 	double load(const JointEntry&);
 	SpringsState state(const JointEntry&);
 	/// Replaces a joint. anchors: ends of its springs in the bodies' frames [m]. The state's vectors get their number.
-	void change(size_t joint, JointParameters, const std::vector<Vec3>& anchorsA,
-	        const std::vector<Vec3>& anchorsB, SpringsState);
+	void change(size_t joint, JointParameters, const std::vector<Vec3>& anchorsA, const std::vector<Vec3>& anchorsB,
+	        SpringsState);
 	/// Appends a joint of a set, which keeps one without springs in its place. Returns the index.
 	size_t take(JointSet& from, size_t joint);
 	void breakSpring(JointEntry&, size_t spring);

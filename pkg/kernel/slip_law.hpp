@@ -120,13 +120,14 @@ class SlipSprings : public SpringLaw {
 	Vec3 onAxis(const Vec3& stretch) const { return axis.isZero(0) ? stretch : Vec3(axis.dot(stretch) * axis); }
 
 public:
-	std::vector<SlipHistory> histories; ///< of each spring
+	std::vector<Vec3> plastic; ///< p of each spring, in the frame of A [m]
+	std::vector<double> largest; ///< R [m]
 
 	/// axis: unit vector in the frame of A, on which the stretches are projected; zero: they act in all directions.
 	SlipSprings(const SlipLaw&, const Vec3& axis, size_t count = 0);
 	SpringState trial(size_t spring, const Vec3& to) const override;
 	SpringState commit(size_t spring, const Vec3& to) override;
-	bool isSpent(size_t spring) const override { return histories[spring].largest >= law.ultimateStretch(); }
+	bool isSpent(size_t spring) const override { return largest[spring] >= law.ultimateStretch(); }
 	double steepestFall() const override { return law.steepestFall(); }
 };
 
