@@ -183,17 +183,17 @@ ContactForces::IslandResult ContactForces::solveIsland(timber::Islands::Island i
 	const int count = int(island.size()),
 	          pairCount = int(std::lower_bound(island.begin(), island.end(), int(pairs.size())) - island.begin());
 	const auto pair = [&](int k) -> const ContactPair& { return pairs[island[k]]; };
-	const auto joint = [&](int k) -> const ImplicitJoint& { return joints[island[k] - int(pairs.size())]; };
+	const auto joint = [&](int k) -> ImplicitJoint& { return joints[island[k] - int(pairs.size())]; };
 	solver.begin(bodies, scene->dt, sweeps);
 	for (int k = 0; k < pairCount; ++k)
 		solver.addPair(pair(k).id1, pair(k).id2, pair(k).points);
 	for (int k = pairCount; k < count; ++k)
-		solver.addJoint(joint(k).joint->bodyA, joint(k).joint->bodyB);
+		addJoint(solver, joint(k));
 	timber::forAll(count, [&](int k) {
 		if (k < pairCount)
 			timber::prepareContacts(solver, k, pair(k).phys->properties(), pair(k).geom->contactPoints,
 			        pair(k).phys->records);
-		else prepareJoint(solver, k - pairCount, joint(k), *scene);
+		else prepareJoint(solver, joint(k), *scene);
 	});
 	result.convergence = solver.solve(tolerance);
 	for (int k = 0; k < pairCount; ++k) {
@@ -204,7 +204,7 @@ ContactForces::IslandResult ContactForces::solveIsland(timber::Islands::Island i
 		addForce(island[k], f);
 	}
 	for (int k = pairCount; k < count; ++k)
-		addForce(island[k], storeJoint(solver, k - pairCount, *scene, joint(k), result.joints));
+		addForce(island[k], storeJoint(solver, *scene, joint(k), result.joints));
 	return result;
 }
 

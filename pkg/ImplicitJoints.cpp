@@ -21,17 +21,43 @@ namespace {
 		        a, b, qA.toRotationMatrix(), { anchors, broken, joint.stiffness, joint.normal }, now);
 	}
 
-	/// Whether two bodies have a joint that may be in the solver; with its modes.
-	bool hasModes(timber::JointEntry& joint, const timber::JointSprings& springs, const Scene& scene,
-	        const std::vector<timber::SolverBody>& bodies)
+	/// Whether a joint holds two bodies, of which one is free.
+	bool holds(const timber::JointEntry& joint, const Scene& scene, const std::vector<timber::SolverBody>& bodies)
 	{
-		if (joint.isBroken() || joint.bodyA == joint.bodyB) return false;
-		const Body *b1 = bodyAt(scene, joint.bodyA), *b2 = bodyAt(scene, joint.bodyB);
-		if (!b1 || !b2) return false;
-		const timber::SolverBody &a = bodies[joint.bodyA], &b = bodies[joint.bodyB];
-		if (timber::pairInverseMass(a, b) == 0) return false;
-		updateModes(joint, springs, b1->state->ori, b2->state->ori, a, b, scene.dt);
-		return true;
+		return !joint.isBroken() && joint.bodyA != joint.bodyB && bodyAt(scene, joint.bodyA)
+		        && bodyAt(scene, joint.bodyB)
+		        && timber::pairInverseMass(bodies[joint.bodyA], bodies[joint.bodyB]) > 0;
+	}
+
+	timber::SpringAxis springAxis(const timber::JointEntry& joint, const timber::JointSprings& springs,
+	        const Scene& scene, const std::vector<timber::SolverBody>& bodies)
+	{
+		const State &s1 = *bodyAt(scene, joint.bodyA)->state, &s2 = *bodyAt(scene, joint.bodyB)->state;
+		size_t spring = 0;
+		while (!springs.isIntact(spring))
+			++spring;
+		const Vector3r armB = s2.ori * springs.anchorB(spring);
+		return { bodies[joint.bodyA], bodies[joint.bodyB], s1.ori * joint.normal, s2.pos + armB - s1.pos, armB,
+			joint.stiffness.normal };
+	}
+
+	/// A joint that may be in the solver, with its modes. isStiff: whether the step does not resolve its springs.
+	ImplicitJoint withModes(
+	        timber::JointSet& set, size_t index, const Scene& scene, const std::vector<timber::SolverBody>& bodies)
+	{
+		timber::JointEntry& joint = set.joints[index];
+		ImplicitJoint result { &joint, set.springs(joint), index, false, joint.total.tangent, joint.isAxial(),
+			{} };
+		if (result.isAxial) {
+			result.axis = springAxis(joint, result.springs, scene, bodies);
+			result.isStiff = scene.dt * result.axis.frequency() > timber::stiffPhase;
+		} else {
+			updateModes(joint, result.springs, bodyAt(scene, joint.bodyA)->state->ori,
+			        bodyAt(scene, joint.bodyB)->state->ori, bodies[joint.bodyA], bodies[joint.bodyB],
+			        scene.dt);
+			result.isStiff = joint.modes.isStiff(scene.dt);
+		}
+		return result;
 	}
 
 	/// Energy by which a yielding joint errs in this step if its springs cross a corner of their law. [J]
@@ -76,29 +102,40 @@ namespace {
 		Real power = 0;
 		for (size_t k = 0; k < springs.count; ++k)
 			if (springs.isIntact(k))
-				power += springs.force(k).dot(
-				        timber::relativeVelocity<double>(a.ori * springs.anchorA(k),
-				                b.ori * springs.anchorB(k), a.vel, a.angVel, b.vel, b.angVel));
+				power += springs.force(k).dot(timber::relativeVelocity<double>(a.ori * springs.anchorA(k),
+				        b.ori * springs.anchorB(k), a.vel, a.angVel, b.vel, b.angVel));
 		return power;
 	}
 
-	timber::SpringSteps springSteps(
-	        timber::JointEntry& joint, const timber::JointSprings& springs, const Scene& scene)
+	/// G of spring_step.hpp. end: of the spring in B, in the frame of A [m]
+	template <int n> timber::ModalVectors<n> ratesOf(const ImplicitJoint& implicit, const Vector3r& end)
 	{
+		if constexpr (n == 1) return std::sqrt(implicit.axis.response) * implicit.joint->normal;
+		else return implicit.joint->modes.rates(end);
+	}
+
+	template <int n> timber::SpringSteps<n> springSteps(const ImplicitJoint& implicit, const Scene& scene)
+	{
+		timber::JointEntry& joint = *implicit.joint;
+		const timber::JointSprings& springs = implicit.springs;
 		const State &s1 = *bodyAt(scene, joint.bodyA)->state, &s2 = *bodyAt(scene, joint.bodyB)->state;
 		const Quaternionr toA = s1.ori.conjugate();
-		std::vector<timber::SpringStep> steps;
+		const auto acting = [&](const Vector3r& stretch) -> Vector3r {
+			if constexpr (n == 1) return joint.normal.dot(stretch) * joint.normal;
+			else return stretch;
+		};
+		std::vector<timber::SpringStep<n>> steps;
 		for (size_t k = 0; k < springs.count; ++k) {
 			if (!springs.isIntact(k)) continue;
 			const Vector3r end = toA * (s2.pos + s2.ori * springs.anchorB(k) - s1.pos),
-			               stretch = end - springs.anchorA(k), force = toA * springs.force(k);
-			timber::SpringStep step { k, stretch, stretch, Vector3r::Zero(), joint.modes.rates(end),
+			               stretch = acting(end - springs.anchorA(k)), force = toA * springs.force(k);
+			timber::SpringStep<n> step { k, stretch, stretch, Vector3r::Zero(), ratesOf<n>(implicit, end),
 				force };
-			if (joint.isStiff()) step.from = joint.half[k];
+			if (joint.isStiff()) step.from = acting(joint.half[k]);
 			else step.applied = force;
 			steps.push_back(std::move(step));
 		}
-		timber::SpringSteps result(joint.springLaw(), std::move(steps), joint.account, scene.dt);
+		timber::SpringSteps<n> result(joint.springLaw(), std::move(steps), joint.account, scene.dt);
 		// The bodies' velocities are those of half a step before the placement
 		if (!joint.isStiff())
 			result.account = result.startEnergy() - scene.dt / 2 * stretchingPower(springs, s1, s2);
@@ -106,14 +143,15 @@ namespace {
 	}
 
 	/// Stretches and forces of a stiff joint after the step, and its broken springs.
-	void storeSprings(const timber::SpringSteps& steps, const Quaternionr& ori, const ImplicitJoint& implicit,
+	template <int n>
+	void storeSprings(const timber::SpringSteps<n>& steps, const Quaternionr& ori, const ImplicitJoint& implicit,
 	        ImplicitJointResult& result)
 	{
 		timber::JointEntry& joint = *implicit.joint;
-		joint.half.resize(implicit.all.count, Vector3r::Zero());
-		for (const timber::SpringStep& s : steps.springs) {
+		joint.half.resize(implicit.springs.count, Vector3r::Zero());
+		for (const timber::SpringStep<n>& s : steps.springs) {
 			joint.half[s.spring] = s.stretch;
-			implicit.all.set(s.spring, ori * s.placed, ori * s.force);
+			implicit.springs.set(s.spring, ori * s.placed, ori * s.force);
 			if (!s.breaks) continue;
 			const auto cause = timber::breakCause(
 			        timber::springForce<double>(joint.stiffness, s.stretch, joint.normal));
@@ -122,12 +160,12 @@ namespace {
 	}
 
 	/// Forces of the springs about the bodies' centres. armA, armB: from these to the joint's centre
-	timber::JointForce totalForce(const timber::ModalConstraint& c, const timber::JointSprings& springs)
+	template <int n> timber::JointForce totalForce(const timber::ModalConstraint<n>& c, const timber::JointSprings& springs)
 	{
 		timber::JointForce total;
-		for (const timber::SpringStep& s : c.springs.springs) {
-			const Vector3r force = c.axesA * s.force,
-			               end = c.axesA * (s.placed + springs.anchorA(s.spring)); // from the centre of A
+		for (const timber::SpringStep<n>& s : c.springs.springs) {
+			const Vector3r force = c.axesA * s.force, // end: from the centre of A
+			        end = n == 1 ? c.armA : Vector3r(c.axesA * (s.placed + springs.anchorA(s.spring)));
 			total.force += force;
 			total.torqueA += end.cross(force);
 			total.torqueB -= (end - c.armA + c.armB).cross(force);
@@ -139,15 +177,16 @@ namespace {
 
 	/// Energies of a stiff joint after the step. A brittle one that the step resolves, and of which no spring breaks, goes
 	/// back to JointEngine, with the energy of explicit springs; it counts what they have beyond the account.
-	void storeEnergies(const timber::ModalConstraint& c, timber::JointEntry& joint, ImplicitJointResult& result)
+	template <int n>
+	void storeEnergies(const timber::ModalConstraint<n>& c, timber::JointEntry& joint, ImplicitJointResult& result)
 	{
 		const bool breaks = std::any_of(c.springs.springs.begin(), c.springs.springs.end(),
-		        [](const timber::SpringStep& s) { return s.breaks; });
+		        [](const timber::SpringStep<n>& s) { return s.breaks; });
 		Real& dissipated = joint.yields() ? result.yielded : breaks ? result.released : result.dashpots;
 		dissipated += c.springs.dissipated;
 		joint.account = c.springs.account;
-		if (!breaks && !joint.yields() && !joint.modes.isStiff(c.h / timber::softPhase)) {
-			const timber::SpringSteps::Leaving left = c.springs.leave(c.h, c.after);
+		if (!breaks && !joint.yields() && c.isSoft()) {
+			const auto left = c.springs.leave(c.h, c.after);
 			dissipated += left.dissipated;
 			result.stored += joint.total.energy = left.stored;
 			joint.total.isKnown = true;
@@ -184,11 +223,12 @@ ImplicitJointResult findImplicitJoints(const Scene& scene, const std::vector<tim
 	};
 	for (size_t k = 0; k < set.joints.size(); ++k) {
 		timber::JointEntry& joint = set.joints[k];
-		const bool may = (joint.isDamped() || alsoStiff) && hasModes(joint, set.springs(joint), scene, bodies);
-		const bool isStiff
-		        = may && alsoStiff && (joint.isStiff() || joint.modes.isStiff(scene.dt) || isFast(joint));
-		if (may && (isStiff || joint.isDamped()))
-			implicit.push_back({ &joint, set.springs(joint), k, isStiff, joint.total.tangent });
+		bool isStiff = false;
+		if ((joint.isDamped() || alsoStiff) && holds(joint, scene, bodies)) {
+			ImplicitJoint one = withModes(set, k, scene, bodies);
+			one.isStiff = isStiff = alsoStiff && (joint.isStiff() || one.isStiff || isFast(joint));
+			if (isStiff || joint.isDamped()) implicit.push_back(one);
+		}
 		if (isStiff && !joint.isStiff()) engine->handOver(joint);
 		if (!isStiff && joint.isStiff()) release(joint, lost);
 	}
@@ -200,39 +240,66 @@ Real dashpotPower(const Scene& scene, const std::vector<timber::SolverBody>& bod
 	const JointEngine* engine = findEngine<JointEngine>(scene);
 	Real power = 0;
 	for (size_t k = 0; engine && k < engine->jointSet().joints.size(); ++k) {
-		timber::JointEntry& joint = engine->jointSet().joints[k];
-		if (joint.isDamped() && hasModes(joint, engine->jointSet().springs(joint), scene, bodies))
-			power += timber::dashpotPower(bodies[joint.bodyA], bodies[joint.bodyB], joint.modes,
-			        axesOf(scene, joint.bodyA), joint.dampingAt(joint.total.tangent));
+		const timber::JointEntry& joint = engine->jointSet().joints[k];
+		if (!joint.isDamped() || !holds(joint, scene, bodies)) continue;
+		const ImplicitJoint one = withModes(engine->jointSet(), k, scene, bodies);
+		const timber::SolverBody &a = bodies[joint.bodyA], &b = bodies[joint.bodyB];
+		const timber::JointDamping damping = joint.dampingAt(one.tangent);
+		power += one.isAxial ? timber::dashpotPower(a, b, one.axis, damping)
+		                     : timber::dashpotPower(a, b, joint.modes, axesOf(scene, joint.bodyA), damping);
 	}
 	return power;
 }
 
-void prepareJoint(timber::ContactSolver& solver, size_t k, const ImplicitJoint& implicit, const Scene& scene)
+void addJoint(timber::ContactSolver& solver, ImplicitJoint& implicit)
 {
-	timber::JointEntry& joint = *implicit.joint;
-	timber::SpringSteps springs;
-	if (implicit.isStiff) springs = springSteps(joint, implicit.all, scene);
-	const Real tangent = implicit.isStiff && joint.isDamped() ? springs.tangent() : implicit.tangent;
-	timber::ModalConstraint& c
-	        = solver.prepareJoint(k, joint.modes, axesOf(scene, joint.bodyA), joint.dampingAt(tangent));
-	if (implicit.isStiff) timber::addSprings(c, std::move(springs));
+	const int a = implicit.joint->bodyA, b = implicit.joint->bodyB;
+	implicit.place = implicit.isAxial ? solver.addJoint<1>(a, b) : solver.addJoint<6>(a, b);
 }
 
-timber::PairForce storeJoint(const timber::ContactSolver& solver, size_t k, const Scene& scene,
-        const ImplicitJoint& implicit, ImplicitJointResult& result)
-{
-	const timber::ModalConstraint& c = solver.joint(k);
-	const timber::JointImpulse P = timber::jointImpulse(c);
-	const Vector3r force = P.linear / scene.dt, torque = P.angular / scene.dt;
-	result.dashpots += c.dissipated;
-	if (implicit.isStiff) {
-		const Quaternionr& ori = bodyAt(scene, implicit.joint->bodyA)->state->ori;
-		storeSprings(c.springs, ori, implicit, result);
-		implicit.joint->total = totalForce(c, implicit.all);
-		storeEnergies(c, *implicit.joint, result);
+namespace {
+	/// modes: of n
+	template <int n, class Modes>
+	void prepare(
+	        timber::ContactSolver& solver, const ImplicitJoint& implicit, const Modes& modes, const Scene& scene)
+	{
+		const timber::JointEntry& joint = *implicit.joint;
+		timber::SpringSteps<n> springs;
+		if (implicit.isStiff) springs = springSteps<n>(implicit, scene);
+		const Real tangent = implicit.isStiff && joint.isDamped() ? springs.tangent() : implicit.tangent;
+		timber::ModalConstraint<n>& c = solver.prepareJoint<n>(
+		        implicit.place, modes, axesOf(scene, joint.bodyA), joint.dampingAt(tangent));
+		if (implicit.isStiff) timber::addSprings(c, std::move(springs));
 	}
-	return { force, -c.armA.cross(force) - torque, c.armB.cross(force) + torque };
+
+	template <int n>
+	timber::PairForce store(const timber::ModalConstraint<n>& c, const Scene& scene, const ImplicitJoint& implicit,
+	        ImplicitJointResult& result)
+	{
+		const timber::JointImpulse P = timber::jointImpulse(c);
+		const Vector3r force = P.linear / scene.dt, torque = P.angular / scene.dt;
+		result.dashpots += c.dissipated;
+		if (implicit.isStiff) {
+			const Quaternionr& ori = bodyAt(scene, implicit.joint->bodyA)->state->ori;
+			storeSprings(c.springs, ori, implicit, result);
+			implicit.joint->total = totalForce(c, implicit.springs);
+			storeEnergies(c, *implicit.joint, result);
+		}
+		return { force, -c.armA.cross(force) - torque, c.armB.cross(force) + torque };
+	}
+}
+
+void prepareJoint(timber::ContactSolver& solver, const ImplicitJoint& implicit, const Scene& scene)
+{
+	if (implicit.isAxial) prepare<1>(solver, implicit, implicit.axis, scene);
+	else prepare<6>(solver, implicit, implicit.joint->modes, scene);
+}
+
+timber::PairForce storeJoint(const timber::ContactSolver& solver, const Scene& scene, const ImplicitJoint& implicit,
+        ImplicitJointResult& result)
+{
+	return implicit.isAxial ? store(solver.joint<1>(implicit.place), scene, implicit, result)
+	                        : store(solver.joint<6>(implicit.place), scene, implicit, result);
 }
 
 } // namespace yade

@@ -13,6 +13,9 @@ struct ImplicitJoint {
 	size_t index; ///< in the engine
 	bool isStiff; ///< its springs are in the solver
 	Real tangent; ///< stiffness of its explicit springs over the initial one [-]
+	bool isAxial; ///< a single spring acts along the normal: one mode
+	timber::SpringAxis axis; ///< of an axial joint
+	size_t place = 0; ///< in the solver, among the joints of as many modes
 };
 
 /// A spring that breaks in the solver.
@@ -39,14 +42,17 @@ struct ImplicitJointResult {
 ImplicitJointResult findImplicitJoints(const Scene&, const std::vector<timber::SolverBody>& bodies, bool alsoStiff,
         std::vector<ImplicitJoint>& implicit);
 
-/// Constraint of a joint, the k-th of the solver.
-void prepareJoint(timber::ContactSolver&, size_t k, const ImplicitJoint&, const Scene&);
+/// Lists a joint in the solver.
+void addJoint(timber::ContactSolver&, ImplicitJoint&);
+
+/// Constraint of a joint.
+void prepareJoint(timber::ContactSolver&, const ImplicitJoint&, const Scene&);
 
 /// Power that the dashpots of all joints take from bodies at these velocities, as in the last step. bodies: by id [W]
 Real dashpotPower(const Scene&, const std::vector<timber::SolverBody>& bodies);
 
-/// Force of the solver's k-th joint. result: added to.
+/// Force of a joint. result: added to.
 timber::PairForce storeJoint(
-        const timber::ContactSolver&, size_t k, const Scene&, const ImplicitJoint&, ImplicitJointResult& result);
+        const timber::ContactSolver&, const Scene&, const ImplicitJoint&, ImplicitJointResult& result);
 
 } // namespace yade

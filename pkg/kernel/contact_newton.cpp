@@ -22,12 +22,12 @@ namespace {
 
 	using Vec12 = Eigen::Matrix<double, 12, 1>;
 	using Mat12 = Eigen::Matrix<double, 12, 12>;
-	using Mat3x12 = Eigen::Matrix<double, 3, 12>;
 
-	Mat3x12 matrixOf(const PairVector (&rows)[3])
+	/// Rows of J R from `rows` on.
+	template <int n> Eigen::Matrix<double, n, 12> matrixOf(const PairVector* rows)
 	{
-		Mat3x12 J;
-		for (int i = 0; i < 3; ++i)
+		Eigen::Matrix<double, n, 12> J;
+		for (int i = 0; i < n; ++i)
 			for (int k = 0; k < 12; ++k)
 				J(i, k) = rows[i].part[k / 4][k % 4];
 		return J;
@@ -71,7 +71,7 @@ class ContactSolver::Newton {
 		for (size_t k = 0; k < pair.count; ++k) {
 			PointStep& c = solver.stepsOf(pair)[k];
 			if (c.idle || c.response() == 0) continue;
-			const Mat3x12 J = matrixOf(c.rows);
+			const auto J = matrixOf<3>(c.rows);
 			const Vec3 after = firstThree(c.velocity) + J * change, p = impulseAt(c, after, softness);
 			c.impulse = PointStep::Quad { p[0], p[1], p[2], 0 };
 			push += J.transpose() * p;
@@ -79,11 +79,11 @@ class ContactSolver::Newton {
 		}
 		add(pair, push, withSlope ? &slope : nullptr, r);
 	}
-	void addJoint(ModalConstraint& joint, const Eigen::VectorXd& x, bool withSlope, Eigen::VectorXd& r)
+	template <int n>
+	void addJoint(ModalConstraint<n>& joint, const Eigen::VectorXd& x, bool withSlope, Eigen::VectorXd& r)
 	{
-		Eigen::Matrix<double, 6, 12> J;
-		J << matrixOf(joint.rows[0]), matrixOf(joint.rows[1]);
-		const ModalLaw law = modalLaw(joint, joint.velocity + J * changeOf(joint, x));
+		const auto J = matrixOf<n>(joint.rows);
+		const ModalLaw<n> law = modalLaw<n>(joint, joint.velocity + J * changeOf(joint, x));
 		joint.impulse = law.impulse;
 		const Mat12 slope = withSlope ? Mat12(J.transpose() * law.slope * J) : Mat12();
 		add(joint, J.transpose() * law.impulse, withSlope ? &slope : nullptr, r);
@@ -95,8 +95,7 @@ class ContactSolver::Newton {
 		if (withSlope) A.setIdentity(x.size(), x.size());
 		for (const SolverPair& pair : solver.pairs)
 			addPair(pair, x, withSlope, r);
-		for (ModalConstraint& joint : solver.joints)
-			addJoint(joint, x, withSlope, r);
+		solver.visitJoints([&](auto& joint) { addJoint(joint, x, withSlope, r); });
 		return r;
 	}
 	/// t of step 3: regula falsi (Illinois), to a share of D.r at t = 0.
@@ -172,8 +171,10 @@ public:
 		for (const int k : solver.freeBodies)
 			for (double& w : solver.weighted[k].change)
 				w = W[n++];
-		return std::all_of(solver.joints.begin(), solver.joints.end(),
-		        [&](const ModalConstraint& joint) { return keepsAccount(joint, solver.changeOf(joint)); });
+		bool kept = true;
+		solver.visitJoints(
+		        [&](const auto& joint) { kept = kept && keepsAccount(joint, solver.changeOf(joint)); });
+		return kept;
 	}
 };
 

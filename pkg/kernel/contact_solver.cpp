@@ -32,7 +32,8 @@ void ContactSolver::begin(std::vector<SolverBody>& sceneBodies, double step, int
 	maxSweeps = sweepLimit;
 	pairs.clear();
 	pointCount = 0;
-	joints.clear();
+	sixModes.clear();
+	oneMode.clear();
 	weighted.resize(sceneBodies.size());
 	freeBodies.clear();
 	++solveCount;
@@ -65,24 +66,18 @@ size_t ContactSolver::addPair(int bodyA, int bodyB, size_t count)
 	return pairs.size() - 1;
 }
 
-size_t ContactSolver::addJoint(int bodyA, int bodyB)
+template <int n> size_t ContactSolver::addJoint(int bodyA, int bodyB)
 {
 	assert(bodyA >= 0 && bodyB >= 0 && bodyA != bodyB);
-	joints.emplace_back();
-	joints.back().bodyA = bodyA;
-	joints.back().bodyB = bodyB;
+	ModalConstraint<n>& joint = joints<n>().emplace_back();
+	joint.bodyA = bodyA;
+	joint.bodyB = bodyB;
 	startBody(bodyA);
 	startBody(bodyB);
-	return joints.size() - 1;
+	return joints<n>().size() - 1;
 }
-
-ModalConstraint& ContactSolver::prepareJoint(
-        size_t k, const JointModes& modes, const Mat3& axesA, const JointDamping& damping)
-{
-	assert(k < joints.size());
-	prepareModes(joints[k], bodiesOf(joints[k]), modes, axesA, damping, h);
-	return joints[k];
-}
+template size_t ContactSolver::addJoint<1>(int, int);
+template size_t ContactSolver::addJoint<6>(int, int);
 
 template <class Number> void ContactSolver::prepare(size_t k, size_t first, const StepInput<Number>& data)
 {
@@ -135,7 +130,7 @@ void ContactSolver::solvePair(SolverPair& pair, bool forwards)
 }
 
 /// One Gauss-Seidel visit of a joint.
-void ContactSolver::solveJoint(ModalConstraint& joint, double threshold, double share)
+template <int n> void ContactSolver::solveJoint(ModalConstraint<n>& joint, double threshold, double share)
 {
 	PairVector velocity = changeOf(joint);
 	solveModes(joint, velocity, threshold, share);
@@ -148,8 +143,7 @@ double ContactSolver::sumOfChanges() const
 	double sum = 0;
 	for (const SolverPair& pair : pairs)
 		sum += pair.squaredChange;
-	for (const ModalConstraint& joint : joints)
-		sum += joint.squaredChange;
+	visitJoints([&](const auto& joint) { sum += joint.squaredChange; });
 	return sum;
 }
 
@@ -169,10 +163,10 @@ double ContactSolver::squaredThreshold(double tolerance, double firstChanges) co
 		size += squares * inverseMass(pair);
 		count += pair.count;
 	}
-	for (const ModalConstraint& joint : joints) {
+	visitJoints([&](const auto& joint) {
 		size += joint.impulse.squaredNorm();
 		count += joint.count;
-	}
+	});
 	for (const int k : freeBodies)
 		for (const double w : weighted[k].change)
 			resultants += w * w;
@@ -223,11 +217,11 @@ bool ContactSolver::sweepOnce(double threshold, bool forwards, double share)
 bool ContactSolver::sweepJoints(double threshold, double applied, double share)
 {
 	bool changed = false;
-	for (ModalConstraint& joint : joints) {
+	visitJoints([&](auto& joint) {
 		const double limit = threshold * joint.thresholdShare;
 		solveJoint(joint, applied * limit * double(joint.count), share);
 		changed = activateNeighbours(joint, limit) || changed;
-	}
+	});
 	return changed;
 }
 
@@ -237,7 +231,7 @@ double ContactSolver::largestChange() const
 	double largest = 0;
 	const auto add = [&](const auto& c) { largest = std::max(largest, c.squaredChange); };
 	std::for_each(pairs.begin(), pairs.end(), add);
-	std::for_each(joints.begin(), joints.end(), add);
+	visitJoints(add);
 	return largest;
 }
 
@@ -293,9 +287,10 @@ template <class Visit> void ContactSolver::visitUnknowns(Visit visit)
 				visit(p, inverseMass(pair));
 				c.impulse[i] = p;
 			}
-	for (ModalConstraint& joint : joints)
+	visitJoints([&](auto& joint) {
 		for (double& q : joint.impulse)
 			visit(q, 1.);
+	});
 	for (const int k : freeBodies)
 		for (double& w : weighted[k].change)
 			visit(w, 0.); // follows from the impulses
@@ -370,8 +365,7 @@ Convergence ContactSolver::sweepToConvergence(double tolerance)
 {
 	activeUntil.resize(bodies->size(), 0);
 	++sweepCount;
-	for (ModalConstraint& joint : joints)
-		solveJoint(joint, 0);
+	visitJoints([&](auto& joint) { solveJoint(joint, 0); });
 	for (SolverPair& pair : pairs)
 		solvePair(pair, true);
 	const double firstChanges = sumOfChanges();
@@ -404,19 +398,18 @@ Convergence ContactSolver::solve(double tolerance)
 	assert(tolerance >= 0);
 	for (const SolverPair& pair : pairs)
 		warmStart(pair);
-	for (ModalConstraint& joint : joints) {
+	visitJoints([&](auto& joint) {
 		PairVector velocity = changeOf(joint);
 		isExplicit() ? applyExplicitModes(joint, velocity) : timber::warmStart(joint, velocity);
 		setChange(joint, velocity);
-	}
+	});
 	Convergence result;
 	if (!isExplicit()) {
 		result = sweepToConvergence(tolerance);
 		for (const SolverPair& pair : pairs)
 			applyRestitution(pair);
 	}
-	for (ModalConstraint& joint : joints)
-		finishModes(joint, changeOf(joint));
+	visitJoints([&](auto& joint) { finishModes(joint, changeOf(joint)); });
 	finishBodies();
 	return result;
 }

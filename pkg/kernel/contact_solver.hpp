@@ -80,6 +80,7 @@
 #pragma once
 #include "contact_step.hpp"
 #include "joint_modes.hpp"
+#include <algorithm>
 #include <cassert>
 #include <cstddef>
 #include <vector>
@@ -112,13 +113,19 @@ public:
 	void begin(std::vector<SolverBody>& bodies, double h, int sweepLimit);
 	/// Phase 1: lists two bodies with that many points. Returns the pair's index.
 	size_t addPair(int bodyA, int bodyB, size_t count);
-	/// Phase 1: lists a joint. Returns its index.
-	size_t addJoint(int bodyA, int bodyB);
+	/// Phase 1: lists a joint of n modes. Returns its index among them.
+	template <int n> size_t addJoint(int bodyA, int bodyB);
 	/// Phase 2: points of the k-th pair from `first` on, one or up to laneCount. Thread-safe for different pairs.
 	template <class Number> void prepare(size_t k, size_t first, const StepInput<Number>& input);
-	/// Phase 2: the k-th joint; arguments as of prepareModes(). Thread-safe for different joints.
-	ModalConstraint& prepareJoint(
-	        size_t k, const JointModes& modes, const Mat3& axesA, const JointDamping& damping);
+	/// Phase 2: the k-th joint of n modes; arguments as of prepareModes(): modes for n = 6, axis for n = 1.
+	/// Thread-safe for different joints.
+	template <int n, class Modes>
+	ModalConstraint<n>& prepareJoint(size_t k, const Modes& modes, const Mat3& axesA, const JointDamping& damping)
+	{
+		ModalConstraint<n>& constraint = joints<n>()[k];
+		prepareModes(constraint, bodiesOf(constraint), modes, axesA, damping, h);
+		return constraint;
+	}
 	/// Phase 3: computes impulses and new velocities. Pairs are visited in the order of their indices, the points
 	/// of a pair forwards and backwards in turn, so that no side of a face is favoured. After the first sweep only
 	/// active pairs are visited: those of which a body has just changed. Changes count by their kinetic energy. A
@@ -152,12 +159,8 @@ public:
 		return steps.data() + pair.first;
 	}
 	const PointStep* stepsOf(const SolverPair& pair) const { return steps.data() + pair.first; }
-	/// Phase 4: the k-th joint.
-	const ModalConstraint& joint(size_t k) const
-	{
-		assert(k < joints.size());
-		return joints[k];
-	}
+	/// Phase 4: the k-th joint of n modes.
+	template <int n> const ModalConstraint<n>& joint(size_t k) const { return joints<n>()[k]; }
 
 private:
 	std::vector<SolverBody>* bodies = nullptr; ///< of the step
@@ -168,17 +171,35 @@ private:
 	/// Of all points in the order of the visits: the sweeps read them one after the other. It does not shrink.
 	std::vector<PointStep> steps;
 	size_t pointCount = 0; ///< of the island
-	std::vector<ModalConstraint> joints;
+	std::vector<ModalConstraint<6>> sixModes;
+	std::vector<ModalConstraint<1>> oneMode;
 	std::vector<int> freeBodies; ///< of the island, by index
 	std::vector<long> activeUntil; ///< of each body: last sweep in which its pairs are visited
 	long solveCount = 0; ///< since construction
 	long sweepCount = 0; ///< since construction: bodies of islands solved before are inactive
 	double twiceKinetic = 0; ///< kinetic energy of the island's bodies after all other forces, times two [J]
 
+	template <int n> auto& joints()
+	{
+		if constexpr (n == 6) return sixModes;
+		else return oneMode;
+	}
+	template <int n> const auto& joints() const { return const_cast<ContactSolver&>(*this).joints<n>(); }
+	/// Calls visit(joint) for all joints of six modes, then of one.
+	template <class Visit> void visitJoints(Visit visit)
+	{
+		std::for_each(sixModes.begin(), sixModes.end(), visit);
+		std::for_each(oneMode.begin(), oneMode.end(), visit);
+	}
+	template <class Visit> void visitJoints(Visit visit) const
+	{
+		std::for_each(sixModes.begin(), sixModes.end(), visit);
+		std::for_each(oneMode.begin(), oneMode.end(), visit);
+	}
 	void startBody(int k);
 	void finishBodies();
 	void warmStart(const SolverPair& pair);
-	void solveJoint(ModalConstraint& joint, double threshold, double share = 1);
+	template <int n> void solveJoint(ModalConstraint<n>& joint, double threshold, double share = 1);
 	template <class Connection> PairVector changeOf(const Connection& c) const
 	{
 		return PairVector::of(weighted[c.bodyA].change, weighted[c.bodyB].change);

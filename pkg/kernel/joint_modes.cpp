@@ -63,27 +63,35 @@ namespace {
 	}
 
 	/// Modes in world axes: eta = linear^T (vB - vA) + onB^T wB - onA^T wA.
-	struct ModalAxes {
-		Mat36 linear; ///< [kg^1/2]
-		Mat36 onA, onB; ///< about the centres of mass [kg^1/2 m]
+	template <int n> struct ModalAxes {
+		ModalVectors<n> linear, angular; ///< Z [kg^1/2, kg^1/2 m]
+		ModalVectors<n> onA, onB; ///< about the centres of mass [kg^1/2 m]
 
 		ModalAxes(const JointModes& modes, const Mat3& axesA, const Vec3& armA, const Vec3& armB)
+		        : linear(axesA * modes.modes.topRows<3>())
+		        , angular(axesA * modes.modes.bottomRows<3>())
 		{
-			linear = axesA * modes.modes.topRows<3>();
-			const Mat36 angular = axesA * modes.modes.bottomRows<3>();
 			for (int k = 0; k < 6; ++k) {
 				onA.col(k) = armA.cross(linear.col(k)) + angular.col(k);
 				onB.col(k) = armB.cross(linear.col(k)) + angular.col(k);
 			}
 		}
-		Vec6 velocity(const Vec3& vA, const Vec3& wA, const Vec3& vB, const Vec3& wB) const
+		explicit ModalAxes(const SpringAxis& line)
+		        : linear(line.axis / std::sqrt(line.response))
+		        , angular(Vec3::Zero())
+		        , onA(line.armA.cross(linear))
+		        , onB(line.armB.cross(linear))
+		{
+		}
+		Modal<n> velocity(const Vec3& vA, const Vec3& wA, const Vec3& vB, const Vec3& wB) const
 		{
 			return linear.transpose() * (vB - vA) + onB.transpose() * wB - onA.transpose() * wA;
 		}
 	};
 
 	/// J R of contact_solver.hpp for one mode.
-	PairVector rowOf(const ModalAxes& axes, int k, const InverseRootMass& rootA, const InverseRootMass& rootB)
+	template <int n>
+	PairVector rowOf(const ModalAxes<n>& axes, int k, const InverseRootMass& rootA, const InverseRootMass& rootB)
 	{
 		const Vec3 linear = axes.linear.col(k), angularA = rootA.weightedTorque<double>(axes.onA.col(k)),
 		           angularB = rootB.weightedTorque<double>(axes.onB.col(k));
@@ -93,21 +101,25 @@ namespace {
 			Quad { b[2], angularB[0], angularB[1], angularB[2] } } };
 	}
 
-	[[gnu::always_inline]] inline void apply(const ModalConstraint& c, PairVector& change, const Vec6& q)
+	template <int n>
+	[[gnu::always_inline]] inline void apply(const ModalConstraint<n>& c, PairVector& change, const Modal<n>& q)
 	{
-		for (int k = 0; k < 6; ++k)
-			change.add(c.rows[k / 3][k % 3], q[k]);
+		for (int k = 0; k < n; ++k)
+			change.add(c.rows[k], q[k]);
 	}
 
 	/// Z^T u; after the sweeps: eta'.
-	[[gnu::always_inline]] inline Vec6 modalNow(const ModalConstraint& c, const PairVector& change)
+	template <int n>
+	[[gnu::always_inline]] inline Modal<n> modalNow(const ModalConstraint<n>& c, const PairVector& change)
 	{
-		Vec6 now = c.velocity;
-		for (int half = 0; half < 2; ++half) {
-			const PairVector::Quad rates = change.dots(c.rows[half]);
-			for (int i = 0; i < 3; ++i)
-				now[3 * half + i] += rates[i];
-		}
+		Modal<n> now = c.velocity;
+		if constexpr (n == 1) now[0] += change.dot(c.rows[0]);
+		else
+			for (int k = 0; k < n; k += 3) {
+				const PairVector::Quad rates = change.dots(c.rows + k);
+				for (int i = 0; i < 3; ++i)
+					now[k + i] += rates[i];
+			}
 		return now;
 	}
 
@@ -140,100 +152,138 @@ JointModes jointModes(const SolverBody& a, const SolverBody& b, const Mat3& axes
 	return result;
 }
 
+SpringAxis::SpringAxis(
+        const SolverBody& a, const SolverBody& b, const Vec3& line, const Vec3& toEndA, const Vec3& toEndB, double k)
+        : axis(line)
+        , armA(toEndA)
+        , armB(toEndB)
+        , stiffness(k)
+{
+	assert(isUnit(axis) && stiffness > 0);
+	const Vec3 onA = armA.cross(axis), onB = armB.cross(axis);
+	response = a.inverseMass + b.inverseMass + onA.dot(a.inverseInertia * onA) + onB.dot(b.inverseInertia * onB);
+}
+
 double dashpotPower(const SolverBody& a, const SolverBody& b, const JointModes& modes, const Mat3& axesA,
         const JointDamping& damping)
 {
 	const Vec3 armA = axesA * modes.centre;
 	const Vec6 eta
-	        = ModalAxes(modes, axesA, armA, armOfB(armA, a, b)).velocity(a.velocity, a.spin, b.velocity, b.spin);
+	        = ModalAxes<6>(modes, axesA, armA, armOfB(armA, a, b)).velocity(a.velocity, a.spin, b.velocity, b.spin);
 	return modes.frequencies.unaryExpr([&](double omega) { return damping.of(omega); }).dot(eta.cwiseAbs2());
 }
 
-void prepareModes(ModalConstraint& c, const SolverBodies& bodies, const JointModes& modes, const Mat3& axesA,
-        const JointDamping& damping, double h)
+double dashpotPower(const SolverBody& a, const SolverBody& b, const SpringAxis& line, const JointDamping& damping)
 {
-	assert(h > 0 && damping.ratio >= 0 && damping.time >= 0 && damping.tangent >= 0);
-	assert(modes.state.springs > 0 && isRotation(axesA));
-	const auto& [a, b, rootA, rootB] = bodies;
-	c.modes = &modes;
-	c.axesA = axesA;
-	c.armA = axesA * modes.centre;
-	c.armB = armOfB(c.armA, a, b);
-	const ModalAxes axes(modes, axesA, c.armA, c.armB);
-	for (int k = 0; k < 6; ++k)
-		c.rows[k / 3][k % 3] = rowOf(axes, k, rootA, rootB);
-	c.before = axes.velocity(a.velocity, a.spin, b.velocity, b.spin);
-	c.velocity = axes.velocity(a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
-	const Eigen::Array<double, 6, 1> phase = h * modes.frequencies.array(),
-	                                 x
-	        = h / 2 * modes.frequencies.array().unaryExpr([&](double omega) { return damping.of(omega); });
-	const double stiffest = std::max(stiffPhase, phase[5]), square = stiffest * stiffest; // frequencies increase
-	c.thresholdShare = stiffest > stiffPhase ? stiffToleranceShare / (square * square) : 1;
-	c.decay = x;
-	c.share = x / (1 + x);
-	c.bias = -x / (1 + x) * c.before.array();
-	c.impulse.setZero();
-	c.h = h;
-	c.dissipated = 0;
+	const double eta = ModalAxes<1>(line).velocity(a.velocity, a.spin, b.velocity, b.spin)[0];
+	return damping.of(line.frequency()) * eta * eta;
 }
 
-void addSprings(ModalConstraint& c, SpringSteps springs)
+namespace {
+	/// frequencies: increasing
+	template <int n>
+	void prepare(ModalConstraint<n>& c, const SolverBodies& bodies, const ModalAxes<n>& axes,
+	        const Modal<n>& frequencies, const JointDamping& damping, double h)
+	{
+		assert(h > 0 && damping.ratio >= 0 && damping.time >= 0 && damping.tangent >= 0 && isRotation(c.axesA));
+		const auto& [a, b, rootA, rootB] = bodies;
+		c.linear = axes.linear;
+		c.angular = axes.angular;
+		for (int k = 0; k < n; ++k)
+			c.rows[k] = rowOf(axes, k, rootA, rootB);
+		c.before = axes.velocity(a.velocity, a.spin, b.velocity, b.spin);
+		c.velocity = axes.velocity(a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
+		const Eigen::Array<double, n, 1> x
+		        = h / 2 * frequencies.array().unaryExpr([&](double omega) { return damping.of(omega); });
+		c.phase = h * frequencies[n - 1];
+		const double stiffest = std::max(stiffPhase, c.phase), square = stiffest * stiffest;
+		c.thresholdShare = stiffest > stiffPhase ? stiffToleranceShare / (square * square) : 1;
+		c.decay = x;
+		c.share = x / (1 + x);
+		c.bias = -x / (1 + x) * c.before.array();
+		c.impulse.setZero();
+		c.h = h;
+		c.dissipated = 0;
+	}
+}
+
+void prepareModes(ModalConstraint<6>& c, const SolverBodies& bodies, const JointModes& modes, const Mat3& axesA,
+        const JointDamping& damping, double h)
+{
+	assert(modes.state.springs > 0);
+	c.axesA = axesA;
+	c.armA = axesA * modes.centre;
+	c.armB = armOfB(c.armA, bodies.a, bodies.b);
+	prepare<6>(c, bodies, { modes, axesA, c.armA, c.armB }, modes.frequencies, damping, h);
+}
+
+void prepareModes(ModalConstraint<1>& c, const SolverBodies& bodies, const SpringAxis& line, const Mat3& axesA,
+        const JointDamping& damping, double h)
+{
+	c.axesA = axesA;
+	c.armA = line.armA;
+	c.armB = line.armB;
+	prepare<1>(c, bodies, ModalAxes<1>(line), Modal<1>(line.frequency()), damping, h);
+}
+
+template <int n> void addSprings(ModalConstraint<n>& c, SpringSteps<n> springs)
 {
 	c.springs = std::move(springs);
 	c.impulse = c.springs.warmStart(c.h);
 }
 
-void warmStart(const ModalConstraint& c, PairVector& change)
+template <int n> void warmStart(const ModalConstraint<n>& c, PairVector& change)
 {
 	if (!c.springs.empty()) apply(c, change, c.impulse);
 }
 
 namespace {
 	/// q by (3), within the energy that dashpots dissipate.
-	Vec6 dashpotImpulse(const ModalConstraint& c, const Vec6& now)
+	template <int n> Modal<n> dashpotImpulse(const ModalConstraint<n>& c, const Modal<n>& now)
 	{
-		const Vec6 sum = c.before + now - c.impulse; // eta + eta' without q
-		Vec6 q = c.share.cwiseProduct(c.impulse - now) + c.bias;
+		const Modal<n> sum = c.before + now - c.impulse; // eta + eta' without q
+		Modal<n> q = c.share.cwiseProduct(c.impulse - now) + c.bias;
 		const double square = q.squaredNorm(), linear = q.dot(sum); // work: (linear + square) / 2
 		if (linear + square > 0) q *= largestShare(linear, square, 0);
 		return q;
 	}
 }
 
-void solveModes(ModalConstraint& c, PairVector& velocity, double threshold, double share)
+template <int n> void solveModes(ModalConstraint<n>& c, PairVector& velocity, double threshold, double share)
 {
-	const Vec6 now = modalNow(c, velocity);
-	const Vec6 q = c.springs.empty() ? dashpotImpulse(c, now) : c.springs.impulse(c.step(), now - c.impulse, now),
-	           change = q - c.impulse;
+	const Modal<n> now = modalNow(c, velocity);
+	const Modal<n> q
+	        = c.springs.empty() ? dashpotImpulse(c, now) : c.springs.impulse(c.step(), now - c.impulse, now),
+	        change = q - c.impulse;
 	c.squaredChange = change.squaredNorm();
 	if (c.squaredChange <= threshold) return;
-	const Vec6 applied = (c.springs.empty() ? 1 : share) * change;
+	const Modal<n> applied = (c.springs.empty() ? 1 : share) * change;
 	c.impulse += applied;
 	apply(c, velocity, applied);
 }
 
-ModalLaw modalLaw(ModalConstraint& c, const Vec6& after)
+template <int n> ModalLaw<n> modalLaw(ModalConstraint<n>& c, const Modal<n>& after)
 {
-	if (c.springs.empty()) return { -c.decay.cwiseProduct(c.before + after), c.decay.asDiagonal() };
-	Mat6 slope;
-	const Vec6 impulse = c.springs.impulseAt(c.step(), after, slope);
+	if (c.springs.empty()) return { -c.decay.cwiseProduct(c.before + after), c.decay.asDiagonal().toDenseMatrix() };
+	ModalMatrix<n> slope;
+	const Modal<n> impulse = c.springs.impulseAt(c.step(), after, slope);
 	return { impulse, slope };
 }
 
-bool keepsAccount(const ModalConstraint& c, const PairVector& change)
+template <int n> bool keepsAccount(const ModalConstraint<n>& c, const PairVector& change)
 {
 	return c.springs.empty() || c.springs.keepsAccount(c.step(), c.impulse, modalNow(c, change));
 }
 
-void applyExplicitModes(ModalConstraint& c, PairVector& change)
+template <int n> void applyExplicitModes(ModalConstraint<n>& c, PairVector& change)
 {
 	c.impulse = -2 * c.decay.cwiseProduct(c.before);
 	apply(c, change, c.impulse);
 }
 
-void finishModes(ModalConstraint& c, const PairVector& change)
+template <int n> void finishModes(ModalConstraint<n>& c, const PairVector& change)
 {
-	const Vec6 now = modalNow(c, change), sum = c.before + now;
+	const Modal<n> now = modalNow(c, change), sum = c.before + now;
 	c.after = now;
 	if (c.springs.empty()) c.dissipated = -c.impulse.dot(sum) / 2;
 	else {
@@ -242,10 +292,16 @@ void finishModes(ModalConstraint& c, const PairVector& change)
 	}
 }
 
-JointImpulse jointImpulse(const ModalConstraint& c)
-{
-	const Vec6 P = c.modes->modes * c.impulse;
-	return { c.axesA * P.head<3>(), c.axesA * P.tail<3>() };
-}
+#define TIMBER_INSTANTIATE(n)                                                                                          \
+	template void addSprings(ModalConstraint<n>&, SpringSteps<n>);                                                 \
+	template void warmStart(const ModalConstraint<n>&, PairVector&);                                               \
+	template void solveModes(ModalConstraint<n>&, PairVector&, double, double);                                    \
+	template ModalLaw<n> modalLaw(ModalConstraint<n>&, const Modal<n>&);                                           \
+	template bool keepsAccount(const ModalConstraint<n>&, const PairVector&);                                      \
+	template void applyExplicitModes(ModalConstraint<n>&, PairVector&);                                            \
+	template void finishModes(ModalConstraint<n>&, const PairVector&);
+TIMBER_INSTANTIATE(1)
+TIMBER_INSTANTIATE(6)
+#undef TIMBER_INSTANTIATE
 
 } // namespace timber

@@ -33,6 +33,10 @@
 ///     E = phi Z^T (N R_B + R_B N^T) Z,   N = diag([n], [n])                                      (4)
 /// which is large for slender bodies and for long arms.
 ///
+/// A single spring that acts along an axis n has one mode with a stiffness, of the present placement:
+///     Z = n / a^1/2,   omega = (k a)^1/2                                                         (5)
+/// with the response a along n where its force acts. Such joints have one scalar instead of six.
+///
 /// Glossary
 ///     D        damping       matrix of the joint's dashpots [N s/m, N s, N m s]
 ///     eta      -             modal velocity before the step; eta': after the step [kg^1/2 m/s]
@@ -125,68 +129,92 @@ struct JointModes {
 JointModes jointModes(const SolverBody& a, const SolverBody& b, const Mat3& axesA, const SpringGroup& springs,
         const JointState& state);
 
+/// The line along which the single spring of a joint acts: the only mode with a stiffness.
+struct SpringAxis {
+	Vec3 axis = Vec3::Zero(); ///< unit, fixed in A, world
+	Vec3 armA = Vec3::Zero(),
+	     armB = Vec3::Zero(); ///< from the centres of mass to the end in B, where forces act [m]
+	double stiffness = 0; ///< [N/m]
+	double response = 0; ///< of the relative velocity along the axis to an impulse along it [1/kg]
+
+	SpringAxis() = default;
+	SpringAxis(const SolverBody& a, const SolverBody& b, const Vec3& axis, const Vec3& armA, const Vec3& armB,
+	        double stiffness);
+	double frequency() const { return std::sqrt(stiffness * response); } ///< omega
+};
+
 /// Power that a joint's dashpots take from its bodies at the velocities before the step. [W]
 double dashpotPower(const SolverBody& a, const SolverBody& b, const JointModes& modes, const Mat3& axesA,
         const JointDamping& damping);
+double dashpotPower(const SolverBody& a, const SolverBody& b, const SpringAxis& line, const JointDamping& damping);
 
-/// A joint's modes in a step.
-struct ModalConstraint {
+/// A joint's n modes in a step: 6, or 1 of a spring that acts along an axis.
+template <int n> struct ModalConstraint {
 	ModalConstraint() { } // numbers are not set: zeros take 2 % of a step of a house with walls
 	int bodyA, bodyB;
-	PairVector rows[2][3]; ///< of J R (contact_solver.hpp), three modes each
-	Vec6 velocity; ///< Z^T u_0
-	const JointModes* modes; ///< Z in the axes of A
+	PairVector rows[n]; ///< of J R (contact_solver.hpp)
+	Modal<n> velocity; ///< Z^T u_0
+	ModalVectors<n> linear, angular; ///< Z, in world axes
 	Mat3 axesA; ///< rotation matrix from the frame of A to the world
 	Vec3 armA, armB; ///< from the centres of mass to the joint's centre [m]
-	Vec6 before; ///< eta
-	Vec6 decay, share; ///< x, s
-	Vec6 bias; ///< -x eta / (1 + x)
-	Vec6 impulse; ///< q: in-out of the sweeps
-	SpringSteps springs; ///< of a stiff joint
+	Modal<n> before; ///< eta
+	Modal<n> decay, share; ///< x, s
+	Modal<n> bias; ///< -x eta / (1 + x)
+	Modal<n> impulse; ///< q: in-out of the sweeps
+	SpringSteps<n> springs; ///< of a stiff joint
 	double squaredChange; ///< of q in the last visit: twice the kinetic energy of the change [J]
 	double h; ///< [s]
-	Vec6 after; ///< eta', after finishModes()
+	double phase; ///< h omega of the stiffest mode
+	Modal<n> after; ///< eta', after finishModes()
 	double dissipated; ///< by the dashpots in the step, after finishModes() [J]
 	/// Of the convergence threshold of the sweeps: squared changes are compared with this share of it. (h omega)^-4
 	/// of the stiffest mode: errors change elastic forces by (h omega)^2 times as much [-]
 	double thresholdShare;
-	ModalStep step() const { return { h, before, decay }; }
+	ModalStep<n> step() const { return { h, before, decay }; }
+	/// Whether explicit springs would resolve the step with a reserve: the joint may leave the solver.
+	bool isSoft() const { return phase <= softPhase * stiffPhase; }
 	static constexpr size_t count = 1; ///< contact points for which a joint counts in the convergence of the sweeps
 };
 
-/// Constraint for a step of h [s], with zero impulse. modes are not copied.
-void prepareModes(ModalConstraint& constraint, const SolverBodies& bodies, const JointModes& modes, const Mat3& axesA,
+/// Constraint for a step of h [s], with zero impulse.
+void prepareModes(ModalConstraint<6>& constraint, const SolverBodies& bodies, const JointModes& modes,
+        const Mat3& axesA, const JointDamping& damping, double h);
+void prepareModes(ModalConstraint<1>& constraint, const SolverBodies& bodies, const SpringAxis& axis, const Mat3& axesA,
         const JointDamping& damping, double h);
 
 /// Adds the springs of a stiff joint, with the impulse of their last forces.
-void addSprings(ModalConstraint& constraint, SpringSteps springs);
+template <int n> void addSprings(ModalConstraint<n>& constraint, SpringSteps<n> springs);
 
 /// Applies the impulse of a stiff joint's last forces. change: dW of (8), contact_solver.hpp, in-out.
-void warmStart(const ModalConstraint& constraint, PairVector& change);
+template <int n> void warmStart(const ModalConstraint<n>& constraint, PairVector& change);
 
 /// One Gauss-Seidel visit: (3), or (3) of spring_step.hpp. A squared change of at most `threshold` [J] is not applied, a
 /// larger one of a stiff joint in part. share: of it [-]
-void solveModes(ModalConstraint& constraint, PairVector& change, double threshold, double share = 1);
+template <int n>
+void solveModes(ModalConstraint<n>& constraint, PairVector& change, double threshold, double share = 1);
 
 /// Impulse of the modes as a function of eta'. after: eta' [kg^1/2 m/s].
-struct ModalLaw {
-	Vec6 impulse; ///< q
-	Mat6 slope; ///< -dq/deta' [-]
+template <int n> struct ModalLaw {
+	Modal<n> impulse; ///< q
+	ModalMatrix<n> slope; ///< -dq/deta' [-]
 };
-ModalLaw modalLaw(ModalConstraint& constraint, const Vec6& after);
+template <int n> ModalLaw<n> modalLaw(ModalConstraint<n>& constraint, const Modal<n>& after);
 /// Whether the springs of a stiff joint return at most their account with the impulse q. change: as of warmStart().
-bool keepsAccount(const ModalConstraint& constraint, const PairVector& change);
+template <int n> bool keepsAccount(const ModalConstraint<n>& constraint, const PairVector& change);
 
 /// Impulse of explicit dashpots, of the velocities before the step.
-void applyExplicitModes(ModalConstraint& constraint, PairVector& change);
+template <int n> void applyExplicitModes(ModalConstraint<n>& constraint, PairVector& change);
 
 /// History and dissipated energy after the step. change: after the sweeps.
-void finishModes(ModalConstraint& constraint, const PairVector& change);
+template <int n> void finishModes(ModalConstraint<n>& constraint, const PairVector& change);
 
 /// Impulse of the modes on B at the joint's centre.
 struct JointImpulse {
 	Vec3 linear, angular; ///< [N s, N m s]
 };
-JointImpulse jointImpulse(const ModalConstraint& constraint);
+template <int n> JointImpulse jointImpulse(const ModalConstraint<n>& c)
+{
+	return { c.linear * c.impulse, c.angular * c.impulse };
+}
 
 } // namespace timber

@@ -48,6 +48,8 @@ struct JointEntry : JointParameters {
 
 	bool isBroken() const { return intact == 0; }
 	bool isStiff() const { return !half.empty(); } ///< the contact solver moves its springs
+	/// A single unbroken spring acts along the normal.
+	bool isAxial() const { return stiffness.shear == 0 && intact == 1; }
 	bool isDamped() const { return damping.ratio > 0 || damping.time > 0; }
 	bool yields() const { return !std::holds_alternative<BrittleSprings>(law); }
 	double springStrength() const { return strength.strength / (strength.perJoint ? double(springs) : 1); } ///< [N]

@@ -143,8 +143,8 @@ struct PairVector {
 	{
 		return part[0] * o.part[0] + part[1] * o.part[1] + part[2] * o.part[2];
 	}
-	/// Scalar products with three vectors, and 0.
-	[[gnu::always_inline]] Quad dots(const PairVector (&rows)[3]) const
+	/// Scalar products with the three vectors from `rows` on, and 0.
+	[[gnu::always_inline]] Quad dots(const PairVector* rows) const
 	{
 		const Quad a = rows[0].partialDot(*this), b = rows[1].partialDot(*this), c = rows[2].partialDot(*this),
 		           zero = {};
@@ -152,6 +152,11 @@ struct PairVector {
 		const Quad c0
 		        = __builtin_shufflevector(c, zero, 0, 4, 2, 6) + __builtin_shufflevector(c, zero, 1, 5, 3, 7);
 		return __builtin_shufflevector(ab, c0, 0, 1, 4, 5) + __builtin_shufflevector(ab, c0, 2, 3, 6, 7);
+	}
+	[[gnu::always_inline]] double dot(const PairVector& o) const
+	{
+		const Quad sums = partialDot(o);
+		return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 	}
 	[[gnu::always_inline]] void add(const PairVector& o, double factor)
 	{

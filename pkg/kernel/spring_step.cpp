@@ -36,7 +36,7 @@ namespace {
 	}
 
 	/// M^-1 r with M = 1 + x + h2/2 G^T T G of a single spring with the tangent T: Woodbury's formula, matrices 3 x 3.
-	Vec6 singleSpringStep(const SpringStep& spring, const Mat3& tangent, const ModalStep& step, const Vec6& r)
+	Vec6 singleSpringStep(const SpringStep<6>& spring, const Mat3& tangent, const ModalStep<6>& step, const Vec6& r)
 	{
 		const Vec6 inverse = (1 + step.decay.array()).inverse();
 		const Mat36 weighted = spring.rates * inverse.asDiagonal();
@@ -47,7 +47,8 @@ namespace {
 
 } // namespace
 
-SpringSteps::SpringSteps(SpringLaw& l, std::vector<SpringStep> steps, double stored, double h)
+template <int n>
+SpringSteps<n>::SpringSteps(SpringLaw& l, std::vector<SpringStep<n>> steps, double stored, double h)
         : law(&l)
         , states(steps.size())
         , shared(steps.size(), Vec3::Zero())
@@ -56,7 +57,7 @@ SpringSteps::SpringSteps(SpringLaw& l, std::vector<SpringStep> steps, double sto
 {
 	assert(h > 0);
 	double rates = 0;
-	for (SpringStep& s : springs) {
+	for (SpringStep<n>& s : springs) {
 		assert(isFinite(s.from) && isFinite(s.placed) && isFinite(s.applied) && isFinite(s.rates));
 		s.start = law->trial(s.spring, s.from);
 		applied -= h * s.rates.transpose() * s.applied;
@@ -65,26 +66,26 @@ SpringSteps::SpringSteps(SpringLaw& l, std::vector<SpringStep> steps, double sto
 	law->keepsForce = h * h * law->steepestFall() * rates >= 1;
 }
 
-double SpringSteps::tangent() const
+template <int n> double SpringSteps<n>::tangent() const
 {
 	double sum = 0;
-	for (const SpringStep& s : springs)
+	for (const SpringStep<n>& s : springs)
 		sum += law->trial(s.spring, s.placed).share;
 	return sum / double(springs.size());
 }
 
-double SpringSteps::startEnergy() const
+template <int n> double SpringSteps<n>::startEnergy() const
 {
 	double energy = 0;
-	for (const SpringStep& s : springs)
+	for (const SpringStep<n>& s : springs)
 		energy += s.start.energy;
 	return energy;
 }
 
-SpringSteps::Leaving SpringSteps::leave(double h, const Vec6& after) const
+template <int n> typename SpringSteps<n>::Leaving SpringSteps<n>::leave(double h, const Vec& after) const
 {
 	double atHalfStep = 0, work = 0; // of explicit springs; since the placement
-	for (const SpringStep& s : springs) {
+	for (const SpringStep<n>& s : springs) {
 		const Vec3 half = h / 2 * (s.rates * after);
 		const SpringState next = law->trial(s.spring, s.stretch + half);
 		atHalfStep += next.energy + next.dissipated - next.force.dot(half);
@@ -93,19 +94,19 @@ SpringSteps::Leaving SpringSteps::leave(double h, const Vec6& after) const
 	return { std::min(account, atHalfStep) - work, std::max(0., account - atHalfStep) };
 }
 
-Vec6 SpringSteps::warmStart(double h) const
+template <int n> Modal<n> SpringSteps<n>::warmStart(double h) const
 {
-	Vec6 impulse = -applied;
-	for (const SpringStep& s : springs)
+	Vec impulse = -applied;
+	for (const SpringStep<n>& s : springs)
 		impulse -= h * s.rates.transpose() * s.force;
 	return impulse;
 }
 
 /// Stretches (1) and forces (2) for the modal velocities after the step. Returns kappa of SpringLaw::limit().
-double SpringSteps::tryStretches(double h, const Vec6& after)
+template <int n> double SpringSteps<n>::tryStretches(double h, const Vec& after)
 {
 	for (size_t i = 0; i < springs.size(); ++i) {
-		SpringStep& s = springs[i];
+		SpringStep<n>& s = springs[i];
 		s.stretch = s.placed + h / 2 * (s.rates * after);
 		states[i] = law->trial(s.spring, s.stretch);
 	}
@@ -116,30 +117,30 @@ double SpringSteps::tryStretches(double h, const Vec6& after)
 }
 
 /// r of (3).
-Vec6 SpringSteps::residual(const ModalStep& step, const Vec6& free, const Vec6& after) const
+template <int n> Modal<n> SpringSteps<n>::residual(const Step& step, const Vec& free, const Vec& after) const
 {
-	Vec6 r = after - free + step.decay.cwiseProduct(step.before + after) + applied;
-	for (const SpringStep& s : springs)
+	Vec r = after - free + step.decay.cwiseProduct(step.before + after) + applied;
+	for (const SpringStep<n>& s : springs)
 		r += step.h * s.rates.transpose() * s.force;
 	return r;
 }
 
 /// Tangent of the force (2) of a spring by z1. kappa: of SpringLaw::limit()
-Mat3 SpringSteps::tangentOf(size_t i, double kappa) const
+template <int n> Mat3 SpringSteps<n>::tangentOf(size_t i, double kappa) const
 {
 	// With a shared strength the slope along one spring's way depends on the other springs
 	if (kappa > 0) return states[i].tangent / 2;
-	const SpringStep& s = springs[i];
+	const SpringStep<n>& s = springs[i];
 	return meanTangent(states[i], s.force, s.stretch - s.from, law->keepsForce ? 0 : -law->steepestFall());
 }
 
 /// Of r by eta'.
-Mat6 SpringSteps::slope(const ModalStep& step, double kappa) const
+template <int n> ModalMatrix<n> SpringSteps<n>::slope(const Step& step, double kappa) const
 {
-	Mat6 matrix = Mat6::Zero();
-	Vec6 together = Vec6::Zero();
+	Mat matrix = Mat::Zero();
+	Vec together = Vec::Zero();
 	for (size_t i = 0; i < springs.size(); ++i) {
-		const SpringStep& s = springs[i];
+		const SpringStep<n>& s = springs[i];
 		matrix += s.rates.transpose() * tangentOf(i, kappa) * s.rates;
 		if (kappa > 0) together += s.rates.transpose() * shared[i];
 	}
@@ -149,12 +150,12 @@ Mat6 SpringSteps::slope(const ModalStep& step, double kappa) const
 }
 
 /// A step from `after` with the slope of an earlier one. Returns whether r falls to lastSlopeReduction of itself.
-bool SpringSteps::followLastSlope(const ModalStep& step, const Vec6& free, Vec6& after, NewtonPoint& point)
+template <int n> bool SpringSteps<n>::followLastSlope(const Step& step, const Vec& free, Vec& after, NewtonPoint& point)
 {
-	const Vec6 last = after;
+	const Vec last = after;
 	after -= inverseSlope * point.residual;
 	const double kappa = tryStretches(step.h, after);
-	const Vec6 r = residual(step, free, after);
+	const Vec r = residual(step, free, after);
 	hasSlope = r.norm() < lastSlopeReduction * point.residual.norm();
 	if (hasSlope) point = { r, kappa };
 	else {
@@ -165,25 +166,28 @@ bool SpringSteps::followLastSlope(const ModalStep& step, const Vec6& free, Vec6&
 }
 
 /// M^-1 r with the slope M of (3).
-Vec6 SpringSteps::newtonStep(const ModalStep& step, const NewtonPoint& point)
+template <int n> Modal<n> SpringSteps<n>::newtonStep(const Step& step, const NewtonPoint& point)
 {
-	if (springs.size() == 1 && !law->isLinear())
-		return singleSpringStep(springs[0], tangentOf(0, point.kappa), step, point.residual);
-	const Eigen::LDLT<Mat6> factors(slope(step, point.kappa));
-	hasSlope = law->isLinear();
-	if (hasSlope) inverseSlope = factors.solve(Mat6::Identity());
-	return factors.solve(point.residual);
+	if constexpr (n == 1) return point.residual / slope(step, point.kappa)(0, 0);
+	else {
+		if (springs.size() == 1 && !law->isLinear())
+			return singleSpringStep(springs[0], tangentOf(0, point.kappa), step, point.residual);
+		const Eigen::LDLT<Mat> factors(slope(step, point.kappa));
+		hasSlope = law->isLinear();
+		if (hasSlope) inverseSlope = factors.solve(Mat::Identity());
+		return factors.solve(point.residual);
+	}
 }
 
 /// A Newton step from `after`, shortened until r falls. Returns whether it does.
-bool SpringSteps::improve(const ModalStep& step, const Vec6& free, Vec6& after, NewtonPoint& point)
+template <int n> bool SpringSteps<n>::improve(const Step& step, const Vec& free, Vec& after, NewtonPoint& point)
 {
 	if (hasSlope && followLastSlope(step, free, after, point)) return true;
-	const Vec6 change = newtonStep(step, point), last = after;
+	const Vec change = newtonStep(step, point), last = after;
 	for (double share = 1; share > springLeastShare; share /= 2) {
 		after = last - share * change;
 		const double kappa = tryStretches(step.h, after);
-		const Vec6 r = residual(step, free, after);
+		const Vec r = residual(step, free, after);
 		if (r.squaredNorm() < point.residual.squaredNorm()) {
 			point = { r, kappa };
 			return true;
@@ -195,7 +199,7 @@ bool SpringSteps::improve(const ModalStep& step, const Vec6& free, Vec6& after, 
 	return false;
 }
 
-Vec6 SpringSteps::impulse(const ModalStep& step, const Vec6& free, Vec6 after)
+template <int n> Modal<n> SpringSteps<n>::impulse(const Step& step, const Vec& free, Vec after)
 {
 	const double kappa = tryStretches(step.h, after),
 	             size = (free - applied).squaredNorm() + free.squaredNorm() + step.before.squaredNorm();
@@ -208,47 +212,47 @@ Vec6 SpringSteps::impulse(const ModalStep& step, const Vec6& free, Vec6 after)
 	return withinAccount(step, free, after - free - point.residual);
 }
 
-Vec6 SpringSteps::impulseAt(const ModalStep& step, const Vec6& after, Mat6& derivative)
+template <int n> Modal<n> SpringSteps<n>::impulseAt(const Step& step, const Vec& after, Mat& derivative)
 {
 	const double kappa = tryStretches(step.h, after);
-	derivative = slope(step, kappa) - Mat6::Identity();
+	derivative = slope(step, kappa) - Mat::Identity();
 	return -residual(step, after, after);
 }
 
-bool SpringSteps::keepsAccount(const ModalStep& step, const Vec6& impulse, const Vec6& after) const
+template <int n> bool SpringSteps<n>::keepsAccount(const Step& step, const Vec& impulse, const Vec& after) const
 {
 	return withinAccount(step, after - impulse, impulse) == impulse;
 }
 
 /// Impulse whose springs return at most the account: (4).
-Vec6 SpringSteps::withinAccount(const ModalStep& step, const Vec6& free, const Vec6& impulse) const
+template <int n> Modal<n> SpringSteps<n>::withinAccount(const Step& step, const Vec& free, const Vec& impulse) const
 {
-	const Vec6 sum = step.before + free + impulse, dashpots = -step.decay.cwiseProduct(sum),
-	           spring = impulse - dashpots + applied;
+	const Vec sum = step.before + free + impulse, dashpots = -step.decay.cwiseProduct(sum),
+	          spring = impulse - dashpots + applied;
 	// Rounding of both sides is no excess: linear springs return all that they have stored
 	const double available = std::max(0., account), rounding = springTolerance * spring.norm() * sum.norm();
 	if (spring.dot(sum) <= 2 * available + rounding) return impulse;
 	// With the share s of `spring` the velocity after the step is (base + s spring) / (1 + x)
-	const Vec6 weight = (1 + step.decay.array()).inverse(),
-	           base = free - applied - step.decay.cwiseProduct(step.before);
+	const Vec weight = (1 + step.decay.array()).inverse(),
+	          base = free - applied - step.decay.cwiseProduct(step.before);
 	const double linear = spring.dot(step.before + weight.cwiseProduct(base)),
 	             square = spring.dot(weight.cwiseProduct(spring));
 	if (linear + square <= 2 * available) return impulse;
-	const Vec6 after = weight.cwiseProduct(base + largestShare(linear, square, available) * spring);
+	const Vec after = weight.cwiseProduct(base + largestShare(linear, square, available) * spring);
 	return after - free;
 }
 
-void SpringSteps::finish(const ModalStep& step, const Vec6& impulse, const Vec6& after)
+template <int n> void SpringSteps<n>::finish(const Step& step, const Vec& impulse, const Vec& after)
 {
-	const Vec6 sum = step.before + after;
+	const Vec sum = step.before + after;
 	account -= (impulse + step.decay.cwiseProduct(sum) + applied).dot(sum) / 2;
 	std::vector<Vec3> forces;
-	for (const SpringStep& s : springs)
+	for (const SpringStep<n>& s : springs)
 		forces.push_back(s.force);
 	tryStretches(step.h, after);
 	double energy = 0;
 	for (size_t i = 0; i < springs.size(); ++i) {
-		SpringStep& s = springs[i];
+		SpringStep<n>& s = springs[i];
 		const bool breaks = states[i].breaks;
 		if (!breaks) states[i] = law->commit(s.spring, s.stretch);
 		s.force = forces[i];
@@ -259,5 +263,8 @@ void SpringSteps::finish(const ModalStep& step, const Vec6& impulse, const Vec6&
 	dissipated += std::max(0., account - energy);
 	account = std::min(account, energy);
 }
+
+template class SpringSteps<1>;
+template class SpringSteps<6>;
 
 } // namespace timber

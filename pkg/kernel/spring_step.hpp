@@ -35,17 +35,22 @@
 
 namespace timber {
 
-using Vec6 = Eigen::Matrix<double, 6, 1>;
-using Mat6 = Eigen::Matrix<double, 6, 6>;
-using Mat36 = Eigen::Matrix<double, 3, 6>;
+/// Modal velocities and impulses of a joint of n modes: 6, or 1 (joint_modes.hpp).
+template <int n> using Modal = Eigen::Matrix<double, n, 1>;
+template <int n> using ModalMatrix = Eigen::Matrix<double, n, n>;
+/// Vectors by modal numbers, a column each.
+template <int n> using ModalVectors = Eigen::Matrix<double, 3, n>;
+using Vec6 = Modal<6>;
+using Mat6 = ModalMatrix<6>;
+using Mat36 = ModalVectors<6>;
 
 /// An unbroken spring in a step. Stretches and forces in the axes of A.
-struct SpringStep {
+template <int n> struct SpringStep {
 	size_t spring; ///< index in the joint
 	Vec3 from; ///< z0 [m]
 	Vec3 placed; ///< d [m]
 	Vec3 applied; ///< force on A by which other engines have accelerated the bodies already [N]
-	Mat36 rates; ///< G [kg^-1/2]
+	ModalVectors<n> rates; ///< G [kg^-1/2]
 	Vec3 force; ///< F; before the sweeps: of the last step [N]
 	SpringState start = {}; ///< at z0
 	Vec3 stretch = Vec3::Zero(); ///< z1 [m]
@@ -54,43 +59,47 @@ struct SpringStep {
 };
 
 /// Modal velocities and damping of a joint in a step.
-struct ModalStep {
+template <int n> struct ModalStep {
 	double h; ///< [s]
-	const Vec6 &before, &decay; ///< eta, x
+	const Modal<n>&before, &decay; ///< eta, x
 };
 
-/// Springs of a joint in a step.
-class SpringSteps {
+/// Springs of a joint of n modes in a step.
+template <int n> class SpringSteps {
+	using Vec = Modal<n>;
+	using Mat = ModalMatrix<n>;
+	using Step = ModalStep<n>;
+
 	SpringLaw* law = nullptr;
 	std::vector<SpringState> states; ///< of the springs at z1
 	std::vector<Vec3> shared; ///< of SpringLaw::limit()
-	Vec6 applied = Vec6::Zero(); ///< q_a
-	Mat6 inverseSlope; ///< of (3), of the last Newton step of linear springs: it serves until they reach the strength
+	Vec applied = Vec::Zero(); ///< q_a
+	Mat inverseSlope; ///< of (3), of the last Newton step of linear springs: it serves until they reach the strength
 	bool hasSlope = false;
 
 	/// r of (3), and kappa of SpringLaw::limit().
 	struct NewtonPoint {
-		Vec6 residual;
+		Vec residual;
 		double kappa;
 	};
 
-	double tryStretches(double h, const Vec6& after);
-	Vec6 residual(const ModalStep& step, const Vec6& free, const Vec6& after) const;
+	double tryStretches(double h, const Vec& after);
+	Vec residual(const Step& step, const Vec& free, const Vec& after) const;
 	Mat3 tangentOf(size_t spring, double kappa) const;
-	Mat6 slope(const ModalStep& step, double kappa) const;
-	Vec6 newtonStep(const ModalStep& step, const NewtonPoint& point);
-	bool followLastSlope(const ModalStep& step, const Vec6& free, Vec6& after, NewtonPoint& point);
-	bool improve(const ModalStep& step, const Vec6& free, Vec6& after, NewtonPoint& point);
-	Vec6 withinAccount(const ModalStep& step, const Vec6& free, const Vec6& impulse) const;
+	Mat slope(const Step& step, double kappa) const;
+	Vec newtonStep(const Step& step, const NewtonPoint& point);
+	bool followLastSlope(const Step& step, const Vec& free, Vec& after, NewtonPoint& point);
+	bool improve(const Step& step, const Vec& free, Vec& after, NewtonPoint& point);
+	Vec withinAccount(const Step& step, const Vec& free, const Vec& impulse) const;
 
 public:
-	std::vector<SpringStep> springs;
+	std::vector<SpringStep<n>> springs;
 	double account = 0; ///< A [J]
 	double dissipated = 0; ///< by the springs before the step; after finish() also in the step [J]
 
 	SpringSteps() = default;
 	/// Springs with the members of SpringStep up to `rates`, and the forces of the last step. The law is not copied.
-	SpringSteps(SpringLaw&, std::vector<SpringStep>, double account, double h);
+	SpringSteps(SpringLaw&, std::vector<SpringStep<n>>, double account, double h);
 	bool empty() const { return springs.empty(); }
 	/// Sum of the energies at z0. [J]
 	double startEnergy() const;
@@ -102,17 +111,17 @@ public:
 		double dissipated; ///< what A has beyond explicit springs [J]
 	};
 	/// After finish(). after: eta'
-	Leaving leave(double h, const Vec6& after) const;
+	Leaving leave(double h, const Vec& after) const;
 	/// Impulse of the forces of the last step, without q_a.
-	Vec6 warmStart(double h) const;
+	Vec warmStart(double h) const;
 	/// Impulse of springs and dashpots without q_a: eta' - E by (3), (4). free: E; after: an estimate of eta'.
-	Vec6 impulse(const ModalStep& step, const Vec6& free, Vec6 after);
+	Vec impulse(const Step& step, const Vec& free, Vec after);
 	/// The same as a function of eta' without (4), and minus its derivative.
-	Vec6 impulseAt(const ModalStep& step, const Vec6& after, Mat6& slope);
+	Vec impulseAt(const Step& step, const Vec& after, Mat& slope);
 	/// Whether (4) admits the impulse at eta'.
-	bool keepsAccount(const ModalStep& step, const Vec6& impulse, const Vec6& after) const;
+	bool keepsAccount(const Step& step, const Vec& impulse, const Vec& after) const;
 	/// Account and history after the step. impulse: without q_a; after: eta'.
-	void finish(const ModalStep& step, const Vec6& impulse, const Vec6& after);
+	void finish(const Step& step, const Vec& impulse, const Vec& after);
 };
 
 } // namespace timber

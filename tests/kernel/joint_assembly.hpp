@@ -178,10 +178,10 @@ struct Assembly {
 		}
 	}
 	/// Springs of a stiff joint, by whose explicit forces accelerate() has accelerated the bodies already.
-	SpringSteps springSteps(const Joint& j, Springs& from, const JointModes& modes, double h) const
+	SpringSteps<6> springSteps(const Joint& j, Springs& from, const JointModes& modes, double h) const
 	{
 		const Vector x = displacements.size() > 0 ? displacements : Vector(Vector::Zero(size()));
-		std::vector<SpringStep> steps;
+		std::vector<SpringStep<6>> steps;
 		for (size_t i = 0; i < j.points.size(); ++i) {
 			const Vec3 stretch = stretchOf(j, i, x);
 			if (!j.broken[i])
@@ -207,17 +207,17 @@ struct Assembly {
 		for (size_t k = 0; k < joints.size(); ++k) {
 			const Joint& j = joints[k];
 			modes[k] = modesOf(j);
-			solver.addJoint(j.a, j.b);
-			ModalConstraint& c = solver.prepareJoint(k, modes[k], Mat3::Identity(), j.damping);
+			solver.addJoint<6>(j.a, j.b);
+			ModalConstraint<6>& c = solver.prepareJoint<6>(k, modes[k], Mat3::Identity(), j.damping);
 			if (sweeps > 0 && modes[k].isStiff(h)) addSprings(c, springSteps(j, history[k], modes[k], h));
 		}
 		solver.solve(tolerance);
 		double dissipated = 0;
 		for (size_t k = 0; k < joints.size(); ++k) {
-			const ModalConstraint& c = solver.joint(k);
+			const ModalConstraint<6>& c = solver.joint<6>(k);
 			dissipated += c.dissipated + c.springs.dissipated;
 			history[k].account = c.springs.account;
-			for (const SpringStep& s : c.springs.springs) {
+			for (const SpringStep<6>& s : c.springs.springs) {
 				history[k].half[s.spring] = s.stretch;
 				history[k].forces[s.spring] = s.force;
 			}

@@ -301,8 +301,8 @@ TEST(JointModes, ConvergeUpToTheirLargestTurn)
 		turned.startSprings(h);
 		ContactSolver solver;
 		solver.begin(turned.bodies, h, 100);
-		solver.addJoint(0, 1);
-		ModalConstraint& c = solver.prepareJoint(0, modes, Mat3::Identity(), { 0 });
+		solver.addJoint<6>(0, 1);
+		ModalConstraint<6>& c = solver.prepareJoint<6>(0, modes, Mat3::Identity(), { 0 });
 		addSprings(c, turned.springSteps(turned.joints[0], turned.history[0], modes, h));
 		const Convergence end = solver.solve(1e-8);
 		EXPECT_TRUE(end.converged);
@@ -327,13 +327,13 @@ TEST(JointModes, OldOnesAddNoEnergy)
 		// The bodies have turned since then
 		const Mat3 axes = about(randomDirection(random), modeAngle).toRotationMatrix();
 		for (size_t k = 0; k < assembly.joints.size(); ++k)
-			solver.prepareJoint(
-			        solver.addJoint(assembly.joints[k].a, assembly.joints[k].b), modes[k], axes, { 1 });
+			solver.prepareJoint<6>(
+			        solver.addJoint<6>(assembly.joints[k].a, assembly.joints[k].b), modes[k], axes, { 1 });
 		solver.solve(1e-10);
 		double dissipated = 0;
 		for (size_t k = 0; k < assembly.joints.size(); ++k) {
-			EXPECT_GE(solver.joint(k).dissipated, -1e-6 * before) << trial << " " << h;
-			dissipated += solver.joint(k).dissipated;
+			EXPECT_GE(solver.joint<6>(k).dissipated, -1e-6 * before) << trial << " " << h;
+			dissipated += solver.joint<6>(k).dissipated;
 		}
 		EXPECT_NEAR(kineticEnergy(assembly.bodies) + dissipated, before, 1e-6 * before) << trial << " " << h;
 	}
@@ -358,8 +358,8 @@ TEST(Chain, IsSolvedTogetherWithContacts)
 	for (const Joint& j : assembly.joints)
 		modes.push_back(assembly.modesOf(j));
 	for (size_t k = 0; k < 2; ++k)
-		solver.prepareJoint(
-		        solver.addJoint(assembly.joints[k].a, assembly.joints[k].b), modes[k], Mat3::Identity(), { 1 });
+		solver.prepareJoint<6>(solver.addJoint<6>(assembly.joints[k].a, assembly.joints[k].b), modes[k],
+		        Mat3::Identity(), { 1 });
 	solver.solve(1e-12);
 	Vector impulse = Vector::Zero(18); // of the contact
 	const Vec3 contact = worldImpulse(*solver.stepsOf(solver.pair(0)));
@@ -371,4 +371,68 @@ TEST(Chain, IsSolvedTogetherWithContacts)
 	const Vector expected = v + W * impulse - h / 2 * W * assembly.damping() * (v + after);
 	EXPECT_GT(contact.z(), 0);
 	EXPECT_LT((after - expected).norm(), 1e-8 * expected.norm()); // residual of the sweeps
+}
+
+namespace {
+/// Bodies with one joint of a single spring along its normal.
+Assembly axial(Random& random)
+{
+	Assembly a { { member(8, { 0.5, 0.7, 0.02 }, Vec3(0.2, 0, 0.1)),
+		             member(20, { 0.1, 3, 4 }, Vec3(0.3, 0.4, -0.2)) },
+		{} };
+	a.joints.push_back({ 0, 1, { Vec3(0.1, 0.15, 0.05) }, { 3e5, 0 }, randomDirection(random), { 0, 2e-3, 0.4 } });
+	a.setVelocities(Vector::NullaryExpr(12, [&] { return uniform(random, -1, 1); }));
+	return a;
+}
+SpringAxis lineOf(const Assembly& a)
+{
+	const Joint& j = a.joints[0];
+	return { a.bodies[0], a.bodies[1], j.normal, j.points[0] - a.bodies[0].position,
+		j.points[0] - a.bodies[1].position, j.stiffness.normal };
+}
+/// Velocities after a step of one mode. Returns the energy that its dashpots dissipate.
+double stepAlongLine(Assembly& a, double h)
+{
+	const Joint& j = a.joints[0];
+	const SpringAxis line = lineOf(a);
+	ContactSolver solver;
+	solver.begin(a.bodies, h, 50);
+	solver.addJoint<1>(0, 1);
+	ModalConstraint<1>& c = solver.prepareJoint<1>(0, line, Mat3::Identity(), j.damping);
+	if (h * line.frequency() > stiffPhase) {
+		const Vec3 from = j.normal.dot(a.history[0].half[0]) * j.normal;
+		const SpringStep<1> step { 0, from, Vec3::Zero(), Vec3::Zero(), std::sqrt(line.response) * j.normal,
+			Vec3::Zero() };
+		const JointStrength none { std::numeric_limits<double>::infinity(), false };
+		addSprings(c,
+		        SpringSteps<1>(std::make_unique<BrittleSprings>(j.stiffness, none, j.normal), { step },
+		                a.history[0].account, h));
+	}
+	solver.solve(1e-14);
+	return solver.joint<1>(0).dissipated;
+}
+}
+
+/// A single spring along an axis has one mode with a stiffness: frequency, power of the dashpots and step are those of
+/// the six. (Rounding leaves the five others 1e-8 of its frequency, so dashpots proportional to the frequency would
+/// differ by as much.)
+TEST(Axis, MovesBodiesAsItsSixModesDo)
+{
+	Random random(41);
+	for (const double h : { 1e-5, 1e-4, 1e-3, 5e-3 })
+		for (int trial = 0; trial < 20; ++trial) {
+			Assembly one = axial(random);
+			one.startSprings(h);
+			Assembly six = one;
+			const SpringAxis line = lineOf(one);
+			const SolverBody &a = one.bodies[0], &b = one.bodies[1];
+			const JointModes modes = six.modesOf(six.joints[0]);
+			const JointDamping& damping = one.joints[0].damping;
+			const double power = dashpotPower(a, b, line, damping);
+			EXPECT_NEAR(line.frequency(), modes.frequencies[5], 1e-12 * line.frequency());
+			EXPECT_NEAR(power, dashpotPower(a, b, modes, Mat3::Identity(), damping), 1e-11 * power);
+			const double dissipated = stepAlongLine(one, h);
+			EXPECT_NEAR(six.damp(h, 50), dissipated, 1e-11 * dissipated) << h;
+			EXPECT_LT((one.velocities() - six.velocities()).norm(), 1e-11 * six.velocities().norm()) << h;
+		}
 }

@@ -95,10 +95,10 @@ struct Row {
 			if (group.count() == 0) continue;
 			const JointState state { group.count(), { k, k }, 1, 1, Quat::Identity() };
 			modes[i] = jointModes(bodies[i], bodies[i + 1], Mat3::Identity(), group, state);
-			const size_t index = solver.addJoint(int(i), int(i + 1));
-			ModalConstraint& c = solver.prepareJoint(index, modes[i], Mat3::Identity(), { ratio });
+			const size_t index = solver.addJoint<6>(int(i), int(i + 1));
+			ModalConstraint<6>& c = solver.prepareJoint<6>(index, modes[i], Mat3::Identity(), { ratio });
 			at.push_back(i);
-			std::vector<SpringStep> steps;
+			std::vector<SpringStep<6>> steps;
 			for (size_t s = 0; s < points.size(); ++s) {
 				if (j.broken[s]) continue;
 				const Vec3 end = arm(s, 1);
@@ -107,20 +107,20 @@ struct Row {
 				steps.push_back(
 				        { s, j.half[s], stretch, Vec3::Zero(), modes[i].rates(end), j.forces[s] });
 			}
-			addSprings(c, SpringSteps(*j.law, steps, j.account, h));
+			addSprings(c, SpringSteps<6>(*j.law, steps, j.account, h));
 		}
 		const Convergence result = solver.solve(tolerance);
 		sweeps = std::max(sweeps, result.sweeps);
 		unconverged += !result.converged;
 		for (size_t index = 0; index < at.size(); ++index) {
 			Joint& j = joints[at[index]];
-			const ModalConstraint& c = solver.joint(index);
+			const ModalConstraint<6>& c = solver.joint<6>(index);
 			if (at[index] == 0) transmitted += jointImpulse(c).linear;
 			dashpots += c.dissipated;
 			springs += c.springs.dissipated;
 			j.account = c.springs.account;
 			double sum = 0;
-			for (const SpringStep& s : c.springs.springs) {
+			for (const SpringStep<6>& s : c.springs.springs) {
 				j.half[s.spring] = s.stretch;
 				j.forces[s.spring] = s.force;
 				if (s.breaks) j.broken[s.spring] = 1;
@@ -237,9 +237,9 @@ TEST(StiffJoints, TangentOfTheMovement)
 	SlipSprings law(slip, Vec3::Zero(), 1);
 	law.commit(0, Vec3(3 * y, 0, 0));
 	for (const auto& [placed, tangent] : { std::pair(3.1 * y, 0.), std::pair(2.9 * y, 1.) }) {
-		const SpringStep step { 0, Vec3(3 * y, 0, 0), Vec3(placed, 0, 0), Vec3::Zero(), Mat36::Zero(),
+		const SpringStep<6> step { 0, Vec3(3 * y, 0, 0), Vec3(placed, 0, 0), Vec3::Zero(), Mat36::Zero(),
 			Vec3::Zero() };
-		EXPECT_EQ(SpringSteps(law, { step }, 0, 1e-4).tangent(), tangent) << placed;
+		EXPECT_EQ(SpringSteps<6>(law, { step }, 0, 1e-4).tangent(), tangent) << placed;
 	}
 }
 
