@@ -15,10 +15,10 @@ namespace {
 		const timber::JointState now { joint.intact, joint.stiffness, timber::pairInverseMass(a, b),
 			a.inverseInertia.trace() + b.inverseInertia.trace(), qA.conjugate() * qB };
 		if (joint.modes.state.fits(now, joint.modes.largestTurn(h, joint.dampingAt(1)))) return;
-		const vector<Vector3r> anchors = springs.all(&timber::JointSprings::anchorA);
-		const vector<int> broken = springs.broken();
-		joint.modes = timber::jointModes(
-		        a, b, qA.toRotationMatrix(), { anchors, broken, joint.stiffness, joint.normal }, now);
+		timber::SpringGroup unbroken { {}, joint.stiffness, joint.normal };
+		for (size_t k = 0; k < springs.count; ++k)
+			if (springs.isIntact(k)) unbroken.anchors.push_back(springs.anchorA(k));
+		joint.modes = timber::jointModes(a, b, qA.toRotationMatrix(), unbroken, now);
 	}
 
 	/// Whether a joint holds two bodies, of which one is free.
@@ -102,8 +102,9 @@ namespace {
 		Real power = 0;
 		for (size_t k = 0; k < springs.count; ++k)
 			if (springs.isIntact(k))
-				power += springs.force(k).dot(timber::relativeVelocity<double>(a.ori * springs.anchorA(k),
-				        b.ori * springs.anchorB(k), a.vel, a.angVel, b.vel, b.angVel));
+				power += springs.force(k).dot(
+				        timber::relativeVelocity<double>(a.ori * springs.anchorA(k),
+				                b.ori * springs.anchorB(k), a.vel, a.angVel, b.vel, b.angVel));
 		return power;
 	}
 
@@ -160,7 +161,8 @@ namespace {
 	}
 
 	/// Forces of the springs about the bodies' centres. armA, armB: from these to the joint's centre
-	template <int n> timber::JointForce totalForce(const timber::ModalConstraint<n>& c, const timber::JointSprings& springs)
+	template <int n>
+	timber::JointForce totalForce(const timber::ModalConstraint<n>& c, const timber::JointSprings& springs)
 	{
 		timber::JointForce total;
 		for (const timber::SpringStep<n>& s : c.springs.springs) {

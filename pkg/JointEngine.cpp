@@ -159,7 +159,7 @@ void JointEngine::computeForce(size_t index)
 	if (joint.yields())
 		joint.total = yieldingForces(joint.springLaw(), placement(joint), joint.axis(), set->springs(joint));
 	else springForces(joint.stiffness, placement(joint), joint.normal, set->springs(joint), joint.total);
-	if (before.isKnown) errors[index] = createdSince(before, joint);
+	if (before.isKnown) joint.created = createdSince(before, joint);
 }
 
 /// Energy beyond the work of the forces before and after the last motion, where the law is not linear. [J]
@@ -174,8 +174,10 @@ Real JointEngine::createdSince(const timber::JointForce& before, const timber::J
 void JointEngine::computeForces()
 {
 	computed = set->joints.size();
-	errors.assign(computed, 0);
-	timber::forAll(int(computed), [this](int k) { computeForce(k); });
+	timber::forAll(int(computed), [this](int k) {
+		set->joints[k].created = 0;
+		computeForce(k);
+	});
 }
 
 void JointEngine::handOver(timber::JointEntry& joint)
@@ -198,25 +200,24 @@ void JointEngine::breakSpring(size_t joint, const timber::SpringBreak& event)
 	set->breakSpring(set->joints[joint], event.spring);
 }
 
-/// Breaks the overloaded springs of a joint and computes the forces of the others again.
+/// Breaks the overloaded springs of a joint and computes the forces of the others again. Those that yield break at the
+/// ultimate stretch, where they have no force any more.
 void JointEngine::breakSprings(size_t index)
 {
-	const timber::JointEntry& joint = set->joints[index];
+	timber::JointEntry& joint = set->joints[index];
+	if (joint.yields()) {
+		for (const timber::SpringBreak& event : timber::spentSprings(joint.springLaw(), joint.stiffness,
+		             bodies[joint.bodyA].axes, joint.normal, set->springs(joint)))
+			breakSpring(index, event);
+		return;
+	}
+	if (!timber::isOverloaded(joint.strength, joint.total)) return;
 	const State &s1 = *bodyAt(*scene, joint.bodyA)->state, &s2 = *bodyAt(*scene, joint.bodyB)->state;
 	const timber::JointMotion motion { kinematics(s1), kinematics(s2), scene->dt };
 	for (const timber::SpringBreak& event : timber::springBreaks(
 	             joint.stiffness, joint.strength, placement(joint), joint.normal, set->springs(joint), motion))
 		breakSpring(index, event);
 	computeForce(index);
-}
-
-/// Breaks the springs of a joint that have reached their ultimate stretch; they have no force any more.
-void JointEngine::breakYielded(size_t index)
-{
-	timber::JointEntry& joint = set->joints[index];
-	for (const timber::SpringBreak& event : timber::spentSprings(
-	             joint.springLaw(), joint.stiffness, bodies[joint.bodyA].axes, joint.normal, set->springs(joint)))
-		breakSpring(index, event);
 }
 
 /// Breaks and sums in the order of the joints: results do not depend on the number of threads.
@@ -226,12 +227,11 @@ void JointEngine::breakAndSum()
 	sums.clear(bodies.size());
 	for (size_t k = 0; k < set->joints.size(); ++k) {
 		const timber::JointEntry& joint = set->joints[k];
-		const timber::JointForce& total = joint.total;
 		if (joint.isBroken() || joint.isStiff()) continue;
-		if (joint.yields()) breakYielded(k);
-		else if (timber::isOverloaded(joint.strength, total)) breakSprings(k);
+		breakSprings(k);
+		const timber::JointForce& total = joint.total;
 		yielded += total.dissipated;
-		created += errors[k];
+		created += joint.created;
 		if (total.energy == 0) continue; // all springs broken or unstretched
 		elastic += total.energy;
 		sums.add(joint.bodyA, total.force, total.torqueA);
@@ -242,9 +242,8 @@ void JointEngine::breakAndSum()
 Real JointEngine::elasticPower(const Scene& current) const
 {
 	Real power = 0;
-	visitSprings(*set, current,
-	        [&](const timber::JointEntry& j, const timber::JointSprings& springs, size_t k, const State& s1,
-	                const State& s2) {
+	visitSprings(
+	        *set, current, [&](const auto& j, const auto& springs, size_t k, const State& s1, const State& s2) {
 		        if (j.isStiff()) return;
 		        const Vector3r end = s2.pos + s2.ori * springs.anchorB(k);
 		        power += springs.force(k).dot(timber::relativeVelocity<double>(
@@ -255,9 +254,8 @@ Real JointEngine::elasticPower(const Scene& current) const
 
 void JointEngine::addSprings(const Scene& current, std::vector<timber::PointSpring>& added) const
 {
-	visitSprings(*set, current,
-	        [&](const timber::JointEntry& j, const timber::JointSprings& springs, size_t k, const State& s1,
-	                const State& s2) {
+	visitSprings(
+	        *set, current, [&](const auto& j, const auto& springs, size_t k, const State& s1, const State& s2) {
 		        const Vector3r x = s1.pos + s1.ori * springs.anchorA(k);
 		        added.push_back({ j.bodyA, j.bodyB, x - s1.pos, x - s2.pos, s1.ori * j.normal,
 		                j.stiffness.normal, j.stiffness.shear, -springs.force(k) });

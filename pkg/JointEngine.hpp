@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Owner of the set of joints (kernel/joint_set.hpp): forces, breaks and energies of their springs. Brittle springs and the rule of breaking:
-/// kernel/joint_law.hpp. Yielding springs: kernel/slip_law.hpp, kernel/wall_springs.hpp. Joints that a step does not
+/// kernel/joint_law.hpp. Yielding springs: kernel/slip_law.hpp, kernel/wall_law.hpp. Joints that a step does not
 /// resolve go to the contact solver (kernel/spring_step.hpp).
 #pragma once
 #include <TimberJoint.hpp>
@@ -34,7 +34,6 @@ class JointEngine : public GlobalEngine {
 	std::vector<Placement> bodies; ///< by id
 	shared_ptr<timber::JointSet> set { new timber::JointSet }; ///< of the joints
 	size_t computed = 0; ///< number of joints in the last step
-	std::vector<Real> errors; ///< of the joints in this step, see `created` [J]
 	BodyForces sums; ///< of the joints
 
 	bool hasBody(Body::id_t) const;
@@ -52,7 +51,6 @@ class JointEngine : public GlobalEngine {
 	Real createdSince(const timber::JointForce& before, const timber::JointEntry&) const;
 	void computeForces();
 	void breakSprings(size_t joint);
-	void breakYielded(size_t joint);
 	void breakAndSum();
 
 public:

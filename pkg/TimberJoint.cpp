@@ -118,20 +118,15 @@ void TimberJoint::moveTo(const shared_ptr<timber::JointSet>& other)
 	set = other;
 }
 
-timber::JointLaw TimberJoint::springLaw() const
+timber::JointEntry TimberJoint::parameters() const
 {
-	const timber::JointStiffness k { share() * kn, share() * ks };
-	if (law == "wall") return timber::WallSprings({ wallCycles(share()), backbone() }, normal);
-	if (law == "slip")
-		return timber::SlipSprings(
-		        { k.normal, frictionShare, backbone() }, ks == 0 ? normal : Vector3r(Vector3r::Zero()));
-	return timber::BrittleSprings(k, { strength, perJoint }, normal);
-}
-
-timber::JointParameters TimberJoint::parameters() const
-{
-	return { id1, id2, normal, { share() * kn, share() * ks }, { strength, perJoint },
-		{ dampingRatio, dampingTime }, initialDamping, springLaw() };
+	timber::JointEntry joint { id1, id2, normal, { share() * kn, share() * ks }, { strength, perJoint },
+		{ dampingRatio, dampingTime }, initialDamping };
+	if (law == "wall") joint.law = timber::WallSprings({ wallCycles(share()), backbone() }, normal);
+	else if (law == "slip")
+		joint.law = timber::SlipSprings({ joint.stiffness.normal, frictionShare, backbone() }, joint.axis());
+	else joint.law = timber::BrittleSprings(joint.stiffness, joint.strength, normal);
+	return joint;
 }
 
 void TimberJoint::setBroken(const vector<int>& flags)

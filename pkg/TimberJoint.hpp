@@ -52,8 +52,7 @@ class TimberJoint : public Serializable {
 	std::vector<timber::BackbonePoint> backbone() const;
 	/// Law of a wall with a share of its forces.
 	timber::WallCycles wallCycles(Real share) const;
-	timber::JointLaw springLaw() const;
-	timber::JointParameters parameters() const;
+	timber::JointEntry parameters() const;
 
 public:
 	void preSave(TimberJoint&) { saved = set->state(entry()); }

@@ -11,6 +11,7 @@
 #pragma once
 #include "kinematics.hpp"
 #include "spring_law.hpp"
+#include <numeric>
 
 namespace timber {
 
@@ -90,6 +91,12 @@ struct JointSprings {
 	void assign(const std::vector<Vec3>& anchorsA, const std::vector<Vec3>& anchorsB,
 	        const std::vector<int>& broken) const;
 };
+
+/// Of vectors, of which there is at least one.
+inline Vec3 mean(const std::vector<Vec3>& v)
+{
+	return std::accumulate(v.begin(), v.end(), Vec3(Vec3::Zero())) / double(v.size());
+}
 
 /// Sums over a joint's unbroken springs; forces on A, torques about the bodies' own centres.
 struct JointForce {

@@ -2,17 +2,8 @@
 #include "joint_set.hpp"
 #include <algorithm>
 #include <cassert>
-#include <numeric>
 
 namespace timber {
-namespace {
-
-	/// Of vectors, of which there is at least one.
-	Vec3 mean(const std::vector<Vec3>& v)
-	{
-		return std::accumulate(v.begin(), v.end(), Vec3(Vec3::Zero())) / double(v.size());
-	}
-}
 
 double JointSet::load(const JointEntry& joint)
 {
@@ -37,17 +28,19 @@ SpringsState JointSet::state(const JointEntry& joint)
 	return state;
 }
 
-void JointSet::change(size_t index, JointParameters parameters, const std::vector<Vec3>& anchorsA,
+void JointSet::change(size_t index, JointEntry parameters, const std::vector<Vec3>& anchorsA,
         const std::vector<Vec3>& anchorsB, SpringsState s)
 {
 	const size_t count = anchorsA.size();
 	assert(count > 0 && anchorsB.size() == count);
 	JointEntry& joint = joints[index];
-	static_cast<JointParameters&>(joint) = std::move(parameters);
+	parameters.firstGroup = joint.firstGroup;
+	parameters.total = joint.total;
 	if (groupsOf(count) > groupsOf(joint.springs)) {
-		joint.firstGroup = groups.size();
-		groups.resize(joint.firstGroup + groupsOf(count));
+		parameters.firstGroup = groups.size();
+		groups.resize(groups.size() + groupsOf(count));
 	}
+	joint = std::move(parameters);
 	joint.springs = count;
 	const Vec3 none = Vec3::Zero();
 	s.broken.resize(count, 0);

@@ -4,7 +4,7 @@
 #pragma once
 #include "joint_modes.hpp"
 #include "slip_law.hpp"
-#include "wall_springs.hpp"
+#include "wall_law.hpp"
 #include <limits>
 #include <variant>
 
@@ -13,8 +13,7 @@ namespace timber {
 /// The springs' law, with their histories if they yield.
 using JointLaw = std::variant<BrittleSprings, SlipSprings, WallSprings>;
 
-/// Parameters of a joint, without the ends of its springs.
-struct JointParameters {
+struct JointEntry {
 	int bodyA = -1, bodyB = -1; ///< indices
 	Vec3 normal = Vec3::UnitZ(); ///< unit, in the frame of A
 	JointStiffness stiffness { 0, 0 }; ///< of each spring
@@ -22,24 +21,11 @@ struct JointParameters {
 	JointDamping damping { 0 }; ///< at the initial stiffness
 	bool initialDamping = false; ///< the dashpots keep it
 	JointLaw law; ///< of a spring
-};
 
-/// State of a joint as it is read, set and saved. Vectors have one entry for each spring.
-struct SpringsState {
-	std::vector<int> broken; ///< 1 for a broken spring, else 0
-	std::vector<Vec3> stretches, forces; ///< as in SpringLanes
-	std::vector<Vec3> plastic; ///< SlipSprings alone
-	std::vector<double> largest; ///< likewise
-	std::vector<WallHistory> wall; ///< WallSprings alone
-	std::vector<Vec3> half; ///< stiff joints alone
-	double account = 0; ///< likewise
-	JointModes modes;
-};
-
-struct JointEntry : JointParameters {
 	size_t firstGroup = 0, springs = 0; ///< its groups of lanes; number of its springs
 	size_t intact = 0; ///< number of the unbroken ones
 	JointForce total; ///< of the springs in the last step
+	double created = 0; ///< energy that explicit springs err by in it [J]
 	/// z0 of the springs of a stiff joint (spring_step.hpp), frame of A; empty: it is not stiff [m]
 	std::vector<Vec3> half;
 	double account = 0; ///< A of a stiff joint [J]
@@ -72,6 +58,18 @@ struct JointEntry : JointParameters {
 	}
 };
 
+/// State of a joint as it is read, set and saved. Vectors have one entry for each spring.
+struct SpringsState {
+	std::vector<int> broken; ///< 1 for a broken spring, else 0
+	std::vector<Vec3> stretches, forces; ///< as in SpringLanes
+	std::vector<Vec3> plastic; ///< SlipSprings alone
+	std::vector<double> largest; ///< likewise
+	std::vector<WallHistory> wall; ///< WallSprings alone
+	std::vector<Vec3> half; ///< stiff joints alone
+	double account = 0; ///< likewise
+	JointModes modes;
+};
+
 class JointSet {
 	std::vector<SpringLanes> groups; ///< of all joints
 
@@ -89,9 +87,10 @@ public:
 	/// Load at the forces of the last step. [-]
 	double load(const JointEntry&);
 	SpringsState state(const JointEntry&);
-	/// Replaces a joint. anchors: ends of its springs in the bodies' frames [m]. The state's vectors get their number.
-	void change(size_t joint, JointParameters, const std::vector<Vec3>& anchorsA, const std::vector<Vec3>& anchorsB,
-	        SpringsState);
+	/// Sets parameters and state of a joint. anchors: ends of its springs in the bodies' frames [m]. The state's
+	/// vectors get their number.
+	void change(size_t joint, JointEntry parameters, const std::vector<Vec3>& anchorsA,
+	        const std::vector<Vec3>& anchorsB, SpringsState);
 	/// Appends a joint of a set, which keeps one without springs in its place. Returns the index.
 	size_t take(JointSet& from, size_t joint);
 	void breakSpring(JointEntry&, size_t spring);

@@ -145,11 +145,10 @@ struct Assembly {
 	}
 	JointModes modesOf(const Joint& j) const
 	{
-		std::vector<Vec3> anchors = j.points;
-		for (Vec3& point : anchors)
-			point -= bodies[j.a].position;
-		return jointModes(bodies[j.a], bodies[j.b], Mat3::Identity(),
-		        { anchors, j.broken, j.stiffness, j.normal }, stateOf(j));
+		SpringGroup unbroken { {}, j.stiffness, j.normal };
+		for (size_t i = 0; i < j.points.size(); ++i)
+			if (!j.broken[i]) unbroken.anchors.push_back(j.points[i] - bodies[j.a].position);
+		return jointModes(bodies[j.a], bodies[j.b], Mat3::Identity(), unbroken, stateOf(j));
 	}
 	/// Six numbers of the motion of a joint's bodies as a rate of the stretch of a spring, or its change.
 	Vec3 stretchOf(const Joint& j, size_t spring, const Vector& x) const

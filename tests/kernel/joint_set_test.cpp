@@ -20,7 +20,7 @@ std::vector<Vec3> vectors(Random& random, size_t count)
 /// A joint with random ends and state. The stretch and force of the broken spring count / 2 are zero.
 struct Given {
 	std::vector<Vec3> anchorsA, anchorsB;
-	JointParameters parameters;
+	JointEntry parameters;
 	SpringsState state;
 
 	Given(Random& random, size_t count, bool yields)

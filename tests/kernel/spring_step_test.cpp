@@ -88,12 +88,11 @@ struct Row {
 		std::vector<size_t> at;
 		for (size_t i = 0; i < count; ++i) {
 			Joint& j = joints[i];
-			std::vector<Vec3> anchors;
+			SpringGroup group { {}, { k, k }, Vec3::UnitX() };
 			for (size_t s = 0; s < points.size(); ++s)
-				anchors.push_back(arm(s, 1));
-			const SpringGroup group { anchors, j.broken, { k, k }, Vec3::UnitX() };
-			if (group.count() == 0) continue;
-			const JointState state { group.count(), { k, k }, 1, 1, Quat::Identity() };
+				if (!j.broken[s]) group.anchors.push_back(arm(s, 1));
+			if (group.anchors.empty()) continue;
+			const JointState state { group.anchors.size(), { k, k }, 1, 1, Quat::Identity() };
 			modes[i] = jointModes(bodies[i], bodies[i + 1], Mat3::Identity(), group, state);
 			const size_t index = solver.addJoint<6>(int(i), int(i + 1));
 			ModalConstraint<6>& c = solver.prepareJoint<6>(index, modes[i], Mat3::Identity(), { ratio });
