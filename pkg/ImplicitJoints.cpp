@@ -8,13 +8,15 @@ namespace {
 	Matrix3r axesOf(const Scene& scene, Body::id_t id) { return bodyAt(scene, id)->state->ori.toRotationMatrix(); }
 
 	/// Modes of a joint's bodies, of which one is free, computed again where those of the last step no longer serve.
-	/// qA, qB: orientations of the bodies; h: step [s].
-	void updateModes(timber::JointEntry& joint, const timber::JointSprings& springs, const Quaternionr& qA,
-	        const Quaternionr& qB, const timber::SolverBody& a, const timber::SolverBody& b, Real h)
+	void updateModes(timber::JointEntry& joint, const timber::JointSprings& springs, const Scene& scene,
+	        const std::vector<timber::SolverBody>& bodies)
 	{
+		const Quaternionr &qA = bodyAt(scene, joint.bodyA)->state->ori,
+		                  &qB = bodyAt(scene, joint.bodyB)->state->ori;
+		const timber::SolverBody &a = bodies[joint.bodyA], &b = bodies[joint.bodyB];
 		const timber::JointState now { joint.intact, joint.stiffness, timber::pairInverseMass(a, b),
 			a.inverseInertia.trace() + b.inverseInertia.trace(), qA.conjugate() * qB };
-		if (joint.modes.state.fits(now, joint.modes.largestTurn(h, joint.dampingAt(1)))) return;
+		if (joint.modes.state.fits(now, joint.modes.largestTurn(scene.dt, joint.dampingAt(1)))) return;
 		timber::SpringGroup unbroken { {}, joint.stiffness, joint.normal };
 		for (size_t k = 0; k < springs.count; ++k)
 			if (springs.isIntact(k)) unbroken.anchors.push_back(springs.anchorA(k));
@@ -52,9 +54,7 @@ namespace {
 			result.axis = springAxis(joint, result.springs, scene, bodies);
 			result.isStiff = scene.dt * result.axis.frequency() > timber::stiffPhase;
 		} else {
-			updateModes(joint, result.springs, bodyAt(scene, joint.bodyA)->state->ori,
-			        bodyAt(scene, joint.bodyB)->state->ori, bodies[joint.bodyA], bodies[joint.bodyB],
-			        scene.dt);
+			updateModes(joint, result.springs, scene, bodies);
 			result.isStiff = joint.modes.isStiff(scene.dt);
 		}
 		return result;
@@ -231,7 +231,10 @@ ImplicitJointResult findImplicitJoints(const Scene& scene, const std::vector<tim
 			one.isStiff = isStiff = alsoStiff && (joint.isStiff() || one.isStiff || isFast(joint));
 			if (isStiff || joint.isDamped()) implicit.push_back(one);
 		}
-		if (isStiff && !joint.isStiff()) engine->handOver(joint);
+		if (isStiff && !joint.isStiff()) { // its forces act in this step already
+			engine->elastic -= joint.total.energy;
+			joint.total = {};
+		}
 		if (!isStiff && joint.isStiff()) release(joint, lost);
 	}
 	return lost;

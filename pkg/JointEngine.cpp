@@ -104,7 +104,7 @@ void JointEngine::collectBodies()
 void JointEngine::breakReplaced()
 {
 	if (std::none_of(bodies.begin(), bodies.end(), [](const Placement& p) { return p.isOther; })) return;
-	for (size_t k = 0; k < computed; ++k)
+	for (size_t k = 0; k < math::min(computed, set->joints.size()); ++k)
 		for (const Body::id_t id : { set->joints[k].bodyA, set->joints[k].bodyB })
 			if (hasBody(id) && bodies[id].isOther) set->breakAll(set->joints[k]);
 }
@@ -121,7 +121,6 @@ void JointEngine::checkJoints() const
 	};
 	const auto isId = [this](Body::id_t id) { return id >= 0 && size_t(id) < scene->bodies->size(); };
 	for (size_t k = 0; k < joints.size(); ++k) {
-		if (!joints[k]) refuse(k, "None");
 		const TimberJoint& joint = *joints[k];
 		if (!visited.insert(&joint).second) refuse(k, "the same joint is in the list before");
 		if (ofOthers.count(&joint)) refuse(k, "the same joint is in another JointEngine of O.engines");
@@ -137,14 +136,7 @@ void JointEngine::takeJoints()
 {
 	set.reset(new timber::JointSet);
 	for (const shared_ptr<TimberJoint>& joint : joints)
-		if (joint) joint->moveTo(set);
-}
-
-void JointEngine::updateJoints()
-{
-	checkJoints();
-	takeJoints();
-	set->isChanged = false;
+		joint->moveTo(set);
 }
 
 void JointEngine::computeForce(size_t index)
@@ -178,12 +170,6 @@ void JointEngine::computeForces()
 		set->joints[k].created = 0;
 		computeForce(k);
 	});
-}
-
-void JointEngine::handOver(timber::JointEntry& joint)
-{
-	elastic -= joint.total.energy;
-	joint.total = {};
 }
 
 void JointEngine::breakSpring(size_t joint, const timber::SpringBreak& event)
@@ -264,7 +250,11 @@ void JointEngine::addSprings(const Scene& current, std::vector<timber::PointSpri
 
 void JointEngine::action()
 {
-	if (set->isChanged) updateJoints();
+	if (set->isChanged) {
+		checkJoints();
+		takeJoints();
+		set->isChanged = false;
+	}
 	collectBodies();
 	breakReplaced();
 	computeForces();

@@ -41,7 +41,6 @@ class JointEngine : public GlobalEngine {
 	void breakReplaced();
 	void checkJoints() const;
 	void takeJoints();
-	void updateJoints();
 	timber::JointPlacement placement(const timber::JointEntry& joint) const
 	{
 		const Placement &a = bodies[joint.bodyA], &b = bodies[joint.bodyB];
@@ -69,8 +68,6 @@ public:
 	boost::python::list pyBreaks() const;
 	/// Breaks a spring and logs it.
 	void breakSpring(size_t joint, const timber::SpringBreak&);
-	/// The contact solver takes over a joint, the forces of which act in this step already.
-	void handOver(timber::JointEntry&);
 	/// Power of the springs' forces at the present velocities of a scene's bodies, > 0 if they are stretched: the
 	/// rate of change of the elastic energy. What yielding springs dissipate of it is known after the next step.
 	/// [W]

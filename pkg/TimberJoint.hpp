@@ -35,7 +35,7 @@ namespace yade {
 
 class TimberJoint : public Serializable {
 	/// Its own until a JointEngine takes the joint into its set.
-	shared_ptr<timber::JointSet> set { new timber::JointSet(1) };
+	shared_ptr<timber::JointSet> set { new timber::JointSet };
 	size_t index = 0; ///< in the set
 
 	timber::JointEntry& entry() const { return set->joints[index]; }
@@ -140,7 +140,7 @@ public:
 		((vector<Vector3r>, stretches, , Attr::hidden | Attr::noSave, "Likewise. [m]"))
 		((vector<Vector3r>, plasticStretches, , Attr::hidden | Attr::noSave, "Likewise. [m]"))
 		((vector<Real>, largestStretches, , Attr::hidden | Attr::noSave, "Likewise. [m]")),
-		,
+		set->joints.resize(1),
 		.add_property("broken", &TimberJoint::areBroken, &TimberJoint::setBroken, "1 for each broken spring, "
 			"else 0. [-] :yattrtype:`vector<int>`")
 		.add_property("forces", &TimberJoint::springForces, "Force of each spring on body 1 in the last step, "

@@ -74,14 +74,9 @@ class JointSet {
 	std::vector<SpringLanes> groups; ///< of all joints
 
 public:
-	std::vector<JointEntry> joints;
+	std::vector<JointEntry> joints; ///< new ones have no springs
 	bool isChanged = true; ///< joints were added, changed or taken since the last step
 
-	/// With `count` joints without springs.
-	explicit JointSet(size_t count = 0)
-	        : joints(count)
-	{
-	}
 	/// Valid until a joint is added or changed.
 	JointSprings springs(const JointEntry& joint) { return { groups.data() + joint.firstGroup, joint.springs }; }
 	/// Load at the forces of the last step. [-]

@@ -66,13 +66,14 @@ struct Given {
 /// Joints of one to nine springs: groups of one do not reach into those of the next.
 struct Mixed {
 	std::vector<Given> given;
-	JointSet set { 5 };
+	JointSet set;
 
 	Mixed()
 	{
 		Random random(54);
 		for (const size_t count : { 1, 4, 5, 9, 3 })
 			given.emplace_back(random, count, count % 2 == 1);
+		set.joints.resize(given.size());
 		for (size_t k = 0; k < given.size(); ++k)
 			given[k].set(set, k);
 	}
