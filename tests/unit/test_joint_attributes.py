@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Attributes of a joint: the engine computes with packed copies. What is read is always of the last step, and what is
-set counts in the next one.
+"""Attributes of a joint in the set of its engine: what is read is always of the last step, and what is set counts in the
+next one.
 """
 import os
 import tempfile
