@@ -135,7 +135,7 @@ void ContactForces::findIslands()
 		return p.points > 0 ? timber::Link(end(p.id1), end(p.id2)) : timber::noLink;
 	});
 	std::transform(joints.begin(), joints.end(), links.begin() + pairs.size(),
-	        [&](const ImplicitJoint& j) { return timber::Link(end(j.joint->id1), end(j.joint->id2)); });
+	        [&](const ImplicitJoint& j) { return timber::Link(end(j.joint->bodyA), end(j.joint->bodyB)); });
 	islands.find(bodies.size(), links);
 	supports.clear();
 	for (size_t k = 0; k < links.size(); ++k)

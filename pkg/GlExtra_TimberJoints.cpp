@@ -56,13 +56,13 @@ void GlExtra_TimberJoints::render()
 	glDisable(GL_DEPTH_TEST);
 	glEnable(GL_POINT_SMOOTH);
 	if (const auto* engine = findEngine<JointEngine>(*scenePtr)) {
-		for (const shared_ptr<TimberJoint>& j : engine->joints) {
-			const Body* b = bodyAt(*scenePtr, j->id1);
-			if (!b || j->anchors1.empty()) continue;
-			const Vector3r x = b->state->pos + b->state->ori * j->centre1();
-			if (j->isBroken()) drawCross(x, cross);
-			else if (j->intactSprings() < j->broken.size()) drawDot(x, amber, 1.5 * size);
-			else drawDot(x, loadColor(math::min(Real(1), j->load())), size);
+		for (const timber::JointEntry& j : engine->jointSet().joints) {
+			const Body* b = bodyAt(*scenePtr, j.bodyA);
+			if (!b || j.springs == 0) continue;
+			const Vector3r x = b->state->pos + b->state->ori * j.centreA;
+			if (j.isBroken()) drawCross(x, cross);
+			else if (j.intact < j.springs) drawDot(x, amber, 1.5 * size);
+			else drawDot(x, loadColor(math::min(Real(1), engine->jointSet().load(j))), size);
 		}
 	}
 	glPopAttrib();

@@ -77,7 +77,7 @@ bool HealthCheck::hasSceneChanged()
 	findParts(*scene, parts);
 	const JointEngine* joints = findEngine<JointEngine>(*scene);
 	return scene->doSort || checkedStep != scene->dt || checkedBodies.size() != scene->bodies->size()
-	        || checkedParts != parts || (joints && !joints->areJointsCurrent()) || haveBodiesChanged();
+	        || checkedParts != parts || (joints && joints->jointSet().isChanged) || haveBodiesChanged();
 }
 
 /// Boxes, contacts and mass of a body would remain those of its old geometry.

@@ -8,69 +8,77 @@ namespace {
 	Matrix3r axesOf(const Scene& scene, Body::id_t id) { return bodyAt(scene, id)->state->ori.toRotationMatrix(); }
 
 	/// Modes of a joint's bodies, of which one is free, computed again where those of the last step no longer serve.
-	void updateModes(
-	        TimberJoint& joint, const Scene& scene, const timber::SolverBody& a, const timber::SolverBody& b)
+	void updateModes(timber::JointEntry& joint, const timber::JointSprings& springs, const Scene& scene,
+	        const std::vector<timber::SolverBody>& bodies)
 	{
-		timber::JointState now { joint.intactSprings(), joint.stiffness(), timber::pairInverseMass(a, b),
+		const timber::SolverBody &a = bodies[joint.bodyA], &b = bodies[joint.bodyB];
+		timber::JointState now { joint.intact, joint.stiffness, timber::pairInverseMass(a, b),
 			a.inverseInertia.trace() + b.inverseInertia.trace() };
 		const bool isExplicit = !joint.isDamped() && !joint.isStiff() && !joint.modes.mayBeStiff(scene.dt);
 		if (isExplicit && joint.modes.state.hasSame(now)) return;
-		const Quaternionr &qA = bodyAt(scene, joint.id1)->state->ori,
-		                  &qB = bodyAt(scene, joint.id2)->state->ori;
+		const Quaternionr &qA = bodyAt(scene, joint.bodyA)->state->ori,
+		                  &qB = bodyAt(scene, joint.bodyB)->state->ori;
 		now.relative = qA.conjugate() * qB;
-		if (!joint.modes.state.fits(now, joint.modes.largestTurn(scene.dt, joint.damping(1))))
-			joint.modes = timber::jointModes(a, b, qA.toRotationMatrix(), joint.springGroup(), now);
+		if (joint.modes.state.fits(now, joint.modes.largestTurn(scene.dt, joint.dampingAt(1)))) return;
+		timber::SpringGroup unbroken { {}, joint.stiffness, joint.normal };
+		for (size_t k = 0; k < springs.count; ++k)
+			if (springs.isIntact(k)) unbroken.anchors.push_back(springs.anchorA(k));
+		joint.modes = timber::jointModes(a, b, qA.toRotationMatrix(), unbroken, now);
 	}
 
 	/// Whether a joint holds two bodies, of which one is free.
-	bool holds(const TimberJoint& joint, const Scene& scene, const std::vector<timber::SolverBody>& bodies)
+	bool holds(const timber::JointEntry& joint, const Scene& scene, const std::vector<timber::SolverBody>& bodies)
 	{
-		return !joint.isBroken() && joint.id1 != joint.id2 && bodyAt(scene, joint.id1)
-		        && bodyAt(scene, joint.id2)
-		        && timber::pairInverseMass(bodies[joint.id1], bodies[joint.id2]) > 0;
+		return !joint.isBroken() && joint.bodyA != joint.bodyB && bodyAt(scene, joint.bodyA)
+		        && bodyAt(scene, joint.bodyB)
+		        && timber::pairInverseMass(bodies[joint.bodyA], bodies[joint.bodyB]) > 0;
 	}
 
-	timber::SpringAxis springAxis(
-	        const TimberJoint& joint, const Scene& scene, const std::vector<timber::SolverBody>& bodies)
+	timber::SpringAxis springAxis(const timber::JointEntry& joint, const timber::JointSprings& springs,
+	        const Scene& scene, const std::vector<timber::SolverBody>& bodies)
 	{
-		const State &s1 = *bodyAt(scene, joint.id1)->state, &s2 = *bodyAt(scene, joint.id2)->state;
-		const size_t spring = std::find(joint.broken.begin(), joint.broken.end(), 0) - joint.broken.begin();
-		const Vector3r armB = s2.ori * joint.anchors2[spring];
-		return { bodies[joint.id1], bodies[joint.id2], s1.ori * joint.normal, s2.pos + armB - s1.pos, armB,
-			joint.stiffness().normal };
+		const State &s1 = *bodyAt(scene, joint.bodyA)->state, &s2 = *bodyAt(scene, joint.bodyB)->state;
+		size_t spring = 0;
+		while (!springs.isIntact(spring))
+			++spring;
+		const Vector3r armB = s2.ori * springs.anchorB(spring);
+		return { bodies[joint.bodyA], bodies[joint.bodyB], s1.ori * joint.normal, s2.pos + armB - s1.pos, armB,
+			joint.stiffness.normal };
 	}
 
 	/// A joint that may be in the solver, with its modes. isStiff: whether the step does not resolve its springs.
-	ImplicitJoint withModes(TimberJoint& joint, size_t index, const JointEngine& engine, const Scene& scene,
-	        const std::vector<timber::SolverBody>& bodies)
+	ImplicitJoint withModes(
+	        timber::JointSet& set, size_t index, const Scene& scene, const std::vector<timber::SolverBody>& bodies)
 	{
-		ImplicitJoint result { &joint, index, false, engine.lastForce(index).tangent, joint.isAxial(), {} };
+		timber::JointEntry& joint = set.joints[index];
+		ImplicitJoint result { &joint, set.springs(joint), index, false, joint.total.tangent, joint.isAxial(),
+			{} };
 		if (result.isAxial) {
-			result.axis = springAxis(joint, scene, bodies);
+			result.axis = springAxis(joint, result.springs, scene, bodies);
 			result.isStiff = scene.dt * result.axis.frequency() > timber::stiffPhase;
 		} else {
-			updateModes(joint, scene, bodies[joint.id1], bodies[joint.id2]);
+			updateModes(joint, result.springs, scene, bodies);
 			result.isStiff = joint.modes.isStiff(scene.dt);
 		}
 		return result;
 	}
 
 	/// Energy by which a yielding joint errs in this step if its springs cross a corner of their law. [J]
-	Real errorOfYielding(
-	        const TimberJoint& joint, const Scene& scene, const std::vector<timber::SolverBody>& bodies)
+	Real errorOfYielding(const timber::JointEntry& joint, const timber::JointSprings& springs, const Scene& scene,
+	        const std::vector<timber::SolverBody>& bodies)
 	{
-		const Quaternionr &qA = bodyAt(scene, joint.id1)->state->ori,
-		                  &qB = bodyAt(scene, joint.id2)->state->ori;
-		const timber::SolverBody &a = bodies[joint.id1], &b = bodies[joint.id2];
+		const Quaternionr &qA = bodyAt(scene, joint.bodyA)->state->ori,
+		                  &qB = bodyAt(scene, joint.bodyB)->state->ori;
+		const timber::SolverBody &a = bodies[joint.bodyA], &b = bodies[joint.bodyB];
+		const Real limit = timber::yieldTravel * joint.springStrength();
 		Real error = 0;
-		for (size_t k = 0; k < joint.broken.size(); ++k) {
-			if (joint.broken[k]) continue;
+		for (size_t k = 0; k < springs.count; ++k) {
+			if (!springs.isIntact(k)) continue;
 			const Real way = scene.dt
-			        * timber::relativeVelocity<double>(qA * joint.anchors1[k], qB * joint.anchors2[k],
+			        * timber::relativeVelocity<double>(qA * springs.anchorA(k), qB * springs.anchorB(k),
 			                a.newVelocity, a.newSpin, b.newVelocity, b.newSpin)
 			                  .norm();
-			if (way * joint.kn > timber::yieldTravel * joint.strength)
-				error += joint.stiffness().normal * way * way / 8;
+			if (way * joint.stiffness.normal > limit) error += joint.stiffness.normal * way * way / 8;
 		}
 		return error;
 	}
@@ -85,20 +93,21 @@ namespace {
 	}
 
 	/// A joint that stops being stiff without a step of the solver.
-	void release(TimberJoint& joint, ImplicitJointResult& result)
+	void release(timber::JointEntry& joint, ImplicitJointResult& result)
 	{
-		(joint.storedEnergy > 0 ? result.dashpots : result.debt) += math::abs(joint.storedEnergy);
+		(joint.account > 0 ? result.dashpots : result.debt) += math::abs(joint.account);
 		joint.soften();
 	}
 
-	/// Power of the bodies on the unbroken springs. forces: of these, world frame [N]; returns [W].
-	Real stretchingPower(const TimberJoint& joint, const State& a, const State& b, const vector<Vector3r>& forces)
+	/// Power of the bodies on the unbroken springs. [W]
+	Real stretchingPower(const timber::JointSprings& springs, const State& a, const State& b)
 	{
 		Real power = 0;
-		for (size_t k = 0; k < joint.broken.size(); ++k)
-			if (!joint.broken[k])
-				power += forces[k].dot(timber::relativeVelocity<double>(a.ori * joint.anchors1[k],
-				        b.ori * joint.anchors2[k], a.vel, a.angVel, b.vel, b.angVel));
+		for (size_t k = 0; k < springs.count; ++k)
+			if (springs.isIntact(k))
+				power += springs.force(k).dot(
+				        timber::relativeVelocity<double>(a.ori * springs.anchorA(k),
+				                b.ori * springs.anchorB(k), a.vel, a.angVel, b.vel, b.angVel));
 		return power;
 	}
 
@@ -111,30 +120,29 @@ namespace {
 
 	template <int n> timber::SpringSteps<n> springSteps(const ImplicitJoint& implicit, const Scene& scene)
 	{
-		TimberJoint& joint = *implicit.joint;
-		const State &s1 = *bodyAt(scene, joint.id1)->state, &s2 = *bodyAt(scene, joint.id2)->state;
+		timber::JointEntry& joint = *implicit.joint;
+		const timber::JointSprings& springs = implicit.springs;
+		const State &s1 = *bodyAt(scene, joint.bodyA)->state, &s2 = *bodyAt(scene, joint.bodyB)->state;
 		const Quaternionr toA = s1.ori.conjugate();
-		const vector<Vector3r> forces = joint.springForces();
 		const auto acting = [&](const Vector3r& stretch) -> Vector3r {
 			if constexpr (n == 1) return joint.normal.dot(stretch) * joint.normal;
 			else return stretch;
 		};
 		std::vector<timber::SpringStep<n>> steps;
-		for (size_t k = 0; k < joint.broken.size(); ++k) {
-			if (joint.broken[k]) continue;
-			const Vector3r end = toA * (s2.pos + s2.ori * joint.anchors2[k] - s1.pos),
-			               stretch = acting(end - joint.anchors1[k]), force = toA * forces[k];
+		for (size_t k = 0; k < springs.count; ++k) {
+			if (!springs.isIntact(k)) continue;
+			const Vector3r end = toA * (s2.pos + s2.ori * springs.anchorB(k) - s1.pos),
+			               stretch = acting(end - springs.anchorA(k)), force = toA * springs.force(k);
 			timber::SpringStep<n> step { k, stretch, stretch, Vector3r::Zero(), ratesOf<n>(implicit, end),
 				force };
-			if (joint.isStiff()) step.from = acting(joint.halfStretches[k]);
+			if (joint.isStiff()) step.from = acting(joint.half[k]);
 			else step.applied = force;
 			steps.push_back(std::move(step));
 		}
-		const bool enters = !joint.isStiff();
-		timber::SpringSteps<n> result(joint.springLaw(), std::move(steps), joint.storedEnergy, scene.dt);
+		timber::SpringSteps<n> result(joint.springLaw(), std::move(steps), joint.account, scene.dt);
 		// The bodies' velocities are those of half a step before the placement
-		if (enters)
-			result.account = result.startEnergy() - scene.dt / 2 * stretchingPower(joint, s1, s2, forces);
+		if (!joint.isStiff())
+			result.account = result.startEnergy() - scene.dt / 2 * stretchingPower(springs, s1, s2);
 		return result;
 	}
 
@@ -143,26 +151,26 @@ namespace {
 	void storeSprings(const timber::SpringSteps<n>& steps, const Quaternionr& ori, const ImplicitJoint& implicit,
 	        ImplicitJointResult& result)
 	{
-		TimberJoint& joint = *implicit.joint;
-		joint.stiffen();
+		timber::JointEntry& joint = *implicit.joint;
+		joint.half.resize(implicit.springs.count, Vector3r::Zero());
 		for (const timber::SpringStep<n>& s : steps.springs) {
-			joint.halfStretches[s.spring] = s.stretch;
-			joint.stretches[s.spring] = ori * s.placed;
-			joint.forces[s.spring] = ori * s.force;
+			joint.half[s.spring] = s.stretch;
+			implicit.springs.set(s.spring, ori * s.placed, ori * s.force);
 			if (!s.breaks) continue;
 			const auto cause = timber::breakCause(
-			        timber::springForce<double>(joint.stiffness(), s.stretch, joint.normal));
+			        timber::springForce<double>(joint.stiffness, s.stretch, joint.normal));
 			result.breaks.push_back({ implicit.index, { s.spring, cause, s.end.force.norm(), 0 } });
 		}
 	}
 
 	/// Forces of the springs about the bodies' centres. armA, armB: from these to the joint's centre
-	template <int n> timber::JointForce totalForce(const timber::ModalConstraint<n>& c, const TimberJoint& joint)
+	template <int n>
+	timber::JointForce totalForce(const timber::ModalConstraint<n>& c, const timber::JointSprings& springs)
 	{
 		timber::JointForce total;
 		for (const timber::SpringStep<n>& s : c.springs.springs) {
 			const Vector3r force = c.axesA * s.force, // end: from the centre of A
-			        end = n == 1 ? c.armA : Vector3r(c.axesA * (s.placed + joint.anchors1[s.spring]));
+			        end = n == 1 ? c.armA : Vector3r(c.axesA * (s.placed + springs.anchorA(s.spring)));
 			total.force += force;
 			total.torqueA += end.cross(force);
 			total.torqueB -= (end - c.armA + c.armB).cross(force);
@@ -175,24 +183,22 @@ namespace {
 	/// Energies of a stiff joint after the step. A brittle one that the step resolves, and of which no spring breaks, goes
 	/// back to JointEngine, with the energy of explicit springs; it counts what they have beyond the account.
 	template <int n>
-	void storeEnergies(const timber::ModalConstraint<n>& c, const ImplicitJoint& implicit,
-	        timber::JointForce& total, ImplicitJointResult& result)
+	void storeEnergies(const timber::ModalConstraint<n>& c, timber::JointEntry& joint, ImplicitJointResult& result)
 	{
-		TimberJoint& joint = *implicit.joint;
 		const bool breaks = std::any_of(c.springs.springs.begin(), c.springs.springs.end(),
 		        [](const timber::SpringStep<n>& s) { return s.breaks; });
 		Real& dissipated = joint.yields() ? result.yielded : breaks ? result.released : result.dashpots;
 		dissipated += c.springs.dissipated;
-		joint.storedEnergy = c.springs.account;
+		joint.account = c.springs.account;
 		if (!breaks && !joint.yields() && c.isSoft()) {
 			const auto left = c.springs.leave(c.h, c.after);
 			dissipated += left.dissipated;
-			result.stored += total.energy = left.stored;
-			total.isKnown = true;
+			result.stored += joint.total.energy = left.stored;
+			joint.total.isKnown = true;
 			return joint.soften();
 		}
-		result.stored += joint.storedEnergy;
-		result.debt += math::max(Real(0), -joint.storedEnergy);
+		result.stored += joint.account;
+		result.debt += math::max(Real(0), -joint.account);
 	}
 }
 
@@ -214,20 +220,24 @@ ImplicitJointResult findImplicitJoints(const Scene& scene, const std::vector<tim
 	JointEngine* engine = findEngine<JointEngine>(scene);
 	if (!engine) return lost;
 	Real energy = -1; // of the scene, once a joint needs it
-	const auto isFast = [&](const TimberJoint& joint) {
-		const Real error = joint.yields() ? errorOfYielding(joint, scene, bodies) : 0;
+	timber::JointSet& set = engine->jointSet();
+	const auto isFast = [&](const timber::JointEntry& joint) {
+		const Real error = joint.yields() ? errorOfYielding(joint, set.springs(joint), scene, bodies) : 0;
 		if (error > 0 && energy < 0) energy = energyOf(*engine, bodies);
 		return error > 0 && error > timber::yieldError * energy;
 	};
-	for (size_t k = 0; k < engine->joints.size(); ++k) {
-		TimberJoint& joint = *engine->joints[k];
+	for (size_t k = 0; k < set.joints.size(); ++k) {
+		timber::JointEntry& joint = set.joints[k];
 		bool isStiff = false;
 		if ((joint.isDamped() || alsoStiff) && holds(joint, scene, bodies)) {
-			ImplicitJoint one = withModes(joint, k, *engine, scene, bodies);
+			ImplicitJoint one = withModes(set, k, scene, bodies);
 			one.isStiff = isStiff = alsoStiff && (joint.isStiff() || one.isStiff || isFast(joint));
 			if (isStiff || joint.isDamped()) implicit.push_back(one);
 		}
-		if (isStiff && !joint.isStiff()) engine->handOver(k);
+		if (isStiff && !joint.isStiff()) { // its forces act in this step already
+			engine->elastic -= joint.total.energy;
+			joint.total = {};
+		}
 		if (!isStiff && joint.isStiff()) release(joint, lost);
 	}
 	return lost;
@@ -237,21 +247,21 @@ Real dashpotPower(const Scene& scene, const std::vector<timber::SolverBody>& bod
 {
 	const JointEngine* engine = findEngine<JointEngine>(scene);
 	Real power = 0;
-	for (size_t k = 0; engine && k < engine->joints.size(); ++k) {
-		TimberJoint& joint = *engine->joints[k];
+	for (size_t k = 0; engine && k < engine->jointSet().joints.size(); ++k) {
+		const timber::JointEntry& joint = engine->jointSet().joints[k];
 		if (!joint.isDamped() || !holds(joint, scene, bodies)) continue;
-		const ImplicitJoint one = withModes(joint, k, *engine, scene, bodies);
-		const timber::SolverBody &a = bodies[joint.id1], &b = bodies[joint.id2];
-		const timber::JointDamping damping = joint.damping(one.tangent);
+		const ImplicitJoint one = withModes(engine->jointSet(), k, scene, bodies);
+		const timber::SolverBody &a = bodies[joint.bodyA], &b = bodies[joint.bodyB];
+		const timber::JointDamping damping = joint.dampingAt(one.tangent);
 		power += one.isAxial ? timber::dashpotPower(a, b, one.axis, damping)
-		                     : timber::dashpotPower(a, b, joint.modes, axesOf(scene, joint.id1), damping);
+		                     : timber::dashpotPower(a, b, joint.modes, axesOf(scene, joint.bodyA), damping);
 	}
 	return power;
 }
 
 void addJoint(timber::ContactSolver& solver, ImplicitJoint& implicit)
 {
-	const Body::id_t a = implicit.joint->id1, b = implicit.joint->id2;
+	const int a = implicit.joint->bodyA, b = implicit.joint->bodyB;
 	implicit.place = implicit.isAxial ? solver.addJoint<1>(a, b) : solver.addJoint<6>(a, b);
 }
 
@@ -261,12 +271,12 @@ namespace {
 	void prepare(
 	        timber::ContactSolver& solver, const ImplicitJoint& implicit, const Modes& modes, const Scene& scene)
 	{
-		TimberJoint& joint = *implicit.joint;
+		const timber::JointEntry& joint = *implicit.joint;
 		timber::SpringSteps<n> springs;
 		if (implicit.isStiff) springs = springSteps<n>(implicit, scene);
 		const Real tangent = implicit.isStiff && joint.isDamped() ? springs.tangent() : implicit.tangent;
 		timber::ModalConstraint<n>& c = solver.prepareJoint<n>(
-		        implicit.place, modes, axesOf(scene, joint.id1), joint.damping(tangent));
+		        implicit.place, modes, axesOf(scene, joint.bodyA), joint.dampingAt(tangent));
 		if (implicit.isStiff) timber::addSprings(c, std::move(springs));
 	}
 
@@ -278,11 +288,10 @@ namespace {
 		const Vector3r force = P.linear / scene.dt, torque = P.angular / scene.dt;
 		result.dashpots += c.dissipated;
 		if (implicit.isStiff) {
-			const Quaternionr& ori = bodyAt(scene, implicit.joint->id1)->state->ori;
+			const Quaternionr& ori = bodyAt(scene, implicit.joint->bodyA)->state->ori;
 			storeSprings(c.springs, ori, implicit, result);
-			timber::JointForce total = totalForce(c, *implicit.joint);
-			storeEnergies(c, implicit, total, result);
-			findEngine<JointEngine>(scene)->setForce(implicit.index, total);
+			implicit.joint->total = totalForce(c, implicit.springs);
+			storeEnergies(c, *implicit.joint, result);
 		}
 		return { force, -c.armA.cross(force) - torque, c.armB.cross(force) + torque };
 	}

@@ -8,7 +8,8 @@ namespace yade {
 
 /// A joint in the solver.
 struct ImplicitJoint {
-	TimberJoint* joint;
+	timber::JointEntry* joint;
+	timber::JointSprings springs; ///< also broken ones
 	size_t index; ///< in the engine
 	bool isStiff; ///< its springs are in the solver
 	Real tangent; ///< stiffness of its explicit springs over the initial one [-]

@@ -17,17 +17,15 @@ namespace {
 		return list;
 	}
 
-	/// Calls visit(joint, spring, force of the spring, states of the bodies) for each unbroken spring between
+	/// Calls visit(joint, its springs, index of the spring, states of the bodies) for each unbroken spring between
 	/// bodies of a scene.
-	template <class Visit>
-	void visitSprings(const vector<shared_ptr<TimberJoint>>& joints, const Scene& scene, Visit visit)
+	template <class Visit> void visitSprings(timber::JointSet& set, const Scene& scene, Visit visit)
 	{
-		for (const shared_ptr<TimberJoint>& j : joints) {
-			const Body *b1 = bodyAt(scene, j->id1), *b2 = bodyAt(scene, j->id2);
-			if (!b1 || !b2 || j->isBroken()) continue;
-			const vector<Vector3r> forces = j->springForces();
-			for (size_t k = 0; k < j->broken.size(); ++k)
-				if (!j->broken[k]) visit(*j, k, forces[k], *b1->state, *b2->state);
+		for (const timber::JointEntry& j : set.joints) {
+			const Body *b1 = bodyAt(scene, j.bodyA), *b2 = bodyAt(scene, j.bodyB);
+			const timber::JointSprings springs = set.springs(j);
+			for (size_t k = 0; b1 && b2 && k < springs.count; ++k)
+				if (springs.isIntact(k)) visit(j, springs, k, *b1->state, *b2->state);
 		}
 	}
 
@@ -62,7 +60,9 @@ int JointEngine::append(const shared_ptr<TimberJoint>& joint)
 	if (!joint || joint->anchors1.empty() || joint->anchors2.empty())
 		throw std::invalid_argument("JointEngine.append: joint: it must be a TimberJoint with anchors1 and "
 		                            "anchors2");
-	joint->validate();
+	joint->validate(joint->areBroken().size());
+	joint->moveTo(set);
+	set->joints.back().total = {};
 	joints.push_back(joint);
 	return int(joints.size()) - 1;
 }
@@ -76,8 +76,8 @@ bool JointEngine::hasSame(const TimberJoint& joint) const
 
 void JointEngine::breakJointsOf(Body::id_t id)
 {
-	for (const shared_ptr<TimberJoint>& joint : joints)
-		if (joint->id1 == id || joint->id2 == id) joint->breakAll();
+	for (timber::JointEntry& joint : set->joints)
+		if (joint.bodyA == id || joint.bodyB == id) set->breakAll(joint);
 }
 
 boost::python::list JointEngine::pyJoints() const { return listOf(joints); }
@@ -104,9 +104,9 @@ void JointEngine::collectBodies()
 void JointEngine::breakReplaced()
 {
 	if (std::none_of(bodies.begin(), bodies.end(), [](const Placement& p) { return p.isOther; })) return;
-	for (size_t k = 0; k < jointForces.size(); ++k) // the joints of the step before
-		for (const Body::id_t id : { joints[k]->id1, joints[k]->id2 })
-			if (hasBody(id) && bodies[id].isOther) joints[k]->breakAll();
+	for (size_t k = 0; k < math::min(computed, set->joints.size()); ++k)
+		for (const Body::id_t id : { set->joints[k].bodyA, set->joints[k].bodyB })
+			if (hasBody(id) && bodies[id].isOther) set->breakAll(set->joints[k]);
 }
 
 void JointEngine::checkJoints() const
@@ -131,37 +131,33 @@ void JointEngine::checkJoints() const
 	}
 }
 
-/// Packs the joints again if there are others, or if attributes have changed.
-void JointEngine::packJoints()
+/// Takes the joints into a new set, also those that another engine has taken.
+void JointEngine::takeJoints()
 {
-	if (areJointsCurrent()) return;
-	checkJoints();
-	packed.reset(new timber::PackedJoints);
+	set.reset(new timber::JointSet);
 	for (const shared_ptr<TimberJoint>& joint : joints)
-		joint->pack(packed);
-	packed->isCurrent = true;
+		joint->moveTo(set);
 }
 
 void JointEngine::computeForce(size_t index)
 {
-	const timber::PackedJoint& joint = packed->joints[index];
-	timber::JointForce& total = jointForces[index];
-	if (joint.isActive && !(hasBody(joint.bodyA) && hasBody(joint.bodyB))) joints[index]->breakAll();
-	if (!joint.isActive || joint.isStiff) total = {};
-	else {
-		const timber::JointForce before = total;
-		if (joint.yields) total = joints[index]->yield(placement(joint));
-		else
-			timber::springForces(joint.stiffness, placement(joint), joint.normal, packed->first(joint),
-			        packed->end(joint), total);
-		if (before.isKnown) errors[index] = createdBetween(joint, before, total);
+	timber::JointEntry& joint = set->joints[index];
+	if (!joint.isBroken() && !(hasBody(joint.bodyA) && hasBody(joint.bodyB))) set->breakAll(joint);
+	if (joint.isBroken() || joint.isStiff()) {
+		joint.total = {};
+		return;
 	}
+	const timber::JointForce before = joint.total;
+	if (joint.yields())
+		joint.total = yieldingForces(joint.springLaw(), placement(joint), joint.axis(), set->springs(joint));
+	else springForces(joint.stiffness, placement(joint), joint.normal, set->springs(joint), joint.total);
+	if (before.isKnown) joint.created = createdSince(before, joint);
 }
 
 /// Energy beyond the work of the forces before and after the last motion, where the law is not linear. [J]
-Real JointEngine::createdBetween(
-        const timber::PackedJoint& joint, const timber::JointForce& before, const timber::JointForce& now) const
+Real JointEngine::createdSince(const timber::JointForce& before, const timber::JointEntry& joint) const
 {
+	const timber::JointForce& now = joint.total;
 	const timber::BodyKinematics a = kinematics(*bodyAt(*scene, joint.bodyA)->state),
 	                             b = kinematics(*bodyAt(*scene, joint.bodyB)->state);
 	return now.energy + now.dissipated - before.energy + scene->dt / 2 * (before.power(a, b) + now.power(a, b));
@@ -169,15 +165,11 @@ Real JointEngine::createdBetween(
 
 void JointEngine::computeForces()
 {
-	jointForces.resize(joints.size());
-	errors.assign(joints.size(), 0);
-	timber::forAll(int(joints.size()), [this](int k) { computeForce(k); });
-}
-
-void JointEngine::handOver(size_t joint)
-{
-	elastic -= lastForce(joint).energy;
-	setForce(joint, {});
+	computed = set->joints.size();
+	timber::forAll(int(computed), [this](int k) {
+		set->joints[k].created = 0;
+		computeForce(k);
+	});
 }
 
 void JointEngine::breakSpring(size_t joint, const timber::SpringBreak& event)
@@ -191,27 +183,27 @@ void JointEngine::breakSpring(size_t joint, const timber::SpringBreak& event)
 	entry->force = event.force;
 	breaks.push_back(entry);
 	released += event.energy;
-	joints[joint]->breakSpring(event.spring);
+	set->breakSpring(set->joints[joint], event.spring);
 }
 
-/// Breaks the overloaded springs of a joint and computes the forces of the others again.
+/// Breaks the overloaded springs of a joint and computes the forces of the others again. Those that yield break at the
+/// ultimate stretch, where they have no force any more.
 void JointEngine::breakSprings(size_t index)
 {
-	TimberJoint& joint = *joints[index];
-	const State &s1 = *Body::byId(joint.id1, scene)->state, &s2 = *Body::byId(joint.id2, scene)->state;
+	timber::JointEntry& joint = set->joints[index];
+	if (joint.yields()) {
+		for (const timber::SpringBreak& event : timber::spentSprings(joint.springLaw(), joint.stiffness,
+		             bodies[joint.bodyA].axes, joint.normal, set->springs(joint)))
+			breakSpring(index, event);
+		return;
+	}
+	if (!timber::isOverloaded(joint.strength, joint.total)) return;
+	const State &s1 = *bodyAt(*scene, joint.bodyA)->state, &s2 = *bodyAt(*scene, joint.bodyB)->state;
 	const timber::JointMotion motion { kinematics(s1), kinematics(s2), scene->dt };
-	for (const timber::SpringBreak& event : timber::springBreaks(joint.stiffness(), joint.jointStrength(),
-	             placement(packed->joints[index]), joint.normal, joint.springs(), motion))
+	for (const timber::SpringBreak& event : timber::springBreaks(
+	             joint.stiffness, joint.strength, placement(joint), joint.normal, set->springs(joint), motion))
 		breakSpring(index, event);
 	computeForce(index);
-}
-
-/// Breaks the springs of a joint that have reached their ultimate stretch; they have no force any more.
-void JointEngine::breakYielded(size_t index)
-{
-	TimberJoint& joint = *joints[index];
-	for (const timber::SpringBreak& event : joint.spentSprings(bodies[joint.id1].axes))
-		breakSpring(index, event);
 }
 
 /// Breaks and sums in the order of the joints: results do not depend on the number of threads.
@@ -219,14 +211,13 @@ void JointEngine::breakAndSum()
 {
 	elastic = 0;
 	sums.clear(bodies.size());
-	for (size_t k = 0; k < joints.size(); ++k) {
-		const timber::PackedJoint& joint = packed->joints[k];
-		if (!joint.isActive || joint.isStiff) continue;
-		if (joint.yields) breakYielded(k);
-		else if (timber::isOverloaded(joint.strength, jointForces[k])) breakSprings(k);
-		const timber::JointForce& total = jointForces[k];
+	for (size_t k = 0; k < set->joints.size(); ++k) {
+		const timber::JointEntry& joint = set->joints[k];
+		if (joint.isBroken() || joint.isStiff()) continue;
+		breakSprings(k);
+		const timber::JointForce& total = joint.total;
 		yielded += total.dissipated;
-		created += errors[k];
+		created += joint.created;
 		if (total.energy == 0) continue; // all springs broken or unstretched
 		elastic += total.energy;
 		sums.add(joint.bodyA, total.force, total.torqueA);
@@ -237,30 +228,33 @@ void JointEngine::breakAndSum()
 Real JointEngine::elasticPower(const Scene& current) const
 {
 	Real power = 0;
-	visitSprings(joints, current,
-	        [&](const TimberJoint& j, size_t k, const Vector3r& force, const State& s1, const State& s2) {
+	visitSprings(
+	        *set, current, [&](const auto& j, const auto& springs, size_t k, const State& s1, const State& s2) {
 		        if (j.isStiff()) return;
-		        const Vector3r end = s2.pos + s2.ori * j.anchors2[k];
-		        power += force.dot(timber::relativeVelocity<double>(
+		        const Vector3r end = s2.pos + s2.ori * springs.anchorB(k);
+		        power += springs.force(k).dot(timber::relativeVelocity<double>(
 		                end - s1.pos, end - s2.pos, s1.vel, s1.angVel, s2.vel, s2.angVel));
 	        });
 	return power;
 }
 
-void JointEngine::addSprings(const Scene& current, std::vector<timber::PointSpring>& springs) const
+void JointEngine::addSprings(const Scene& current, std::vector<timber::PointSpring>& added) const
 {
-	visitSprings(joints, current,
-	        [&](const TimberJoint& j, size_t k, const Vector3r& force, const State& s1, const State& s2) {
-		        const timber::JointStiffness stiffness = j.stiffness();
-		        const Vector3r x = s1.pos + s1.ori * j.anchors1[k];
-		        springs.push_back({ j.id1, j.id2, x - s1.pos, x - s2.pos, s1.ori * j.normal, stiffness.normal,
-		                stiffness.shear, -force });
+	visitSprings(
+	        *set, current, [&](const auto& j, const auto& springs, size_t k, const State& s1, const State& s2) {
+		        const Vector3r x = s1.pos + s1.ori * springs.anchorA(k);
+		        added.push_back({ j.bodyA, j.bodyB, x - s1.pos, x - s2.pos, s1.ori * j.normal,
+		                j.stiffness.normal, j.stiffness.shear, -springs.force(k) });
 	        });
 }
 
 void JointEngine::action()
 {
-	packJoints();
+	if (set->isChanged) {
+		checkJoints();
+		takeJoints();
+		set->isChanged = false;
+	}
 	collectBodies();
 	breakReplaced();
 	computeForces();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Owner of the joints' springs: their forces, breaks and energies. Brittle springs and the rule of breaking:
-/// kernel/joint_law.hpp. Yielding springs: kernel/slip_law.hpp, kernel/wall_springs.hpp. Joints that a step does not
+/// Owner of the set of joints (kernel/joint_set.hpp): forces, breaks and energies of their springs. Brittle springs and the rule of breaking:
+/// kernel/joint_law.hpp. Yielding springs: kernel/slip_law.hpp, kernel/wall_law.hpp. Joints that a step does not
 /// resolve go to the contact solver (kernel/spring_step.hpp).
 #pragma once
 #include <TimberJoint.hpp>
@@ -32,33 +32,31 @@ class JointEngine : public GlobalEngine {
 		bool isOther = false; ///< than in the step before, with the same id
 	};
 	std::vector<Placement> bodies; ///< by id
-	shared_ptr<timber::PackedJoints> packed { new timber::PackedJoints };
-	std::vector<timber::JointForce> jointForces; ///< of the joints' unbroken springs in this step
-	std::vector<Real> errors; ///< of the joints in this step, see `created` [J]
+	shared_ptr<timber::JointSet> set { new timber::JointSet }; ///< of the joints
+	size_t computed = 0; ///< number of joints in the last step
 	BodyForces sums; ///< of the joints
 
 	bool hasBody(Body::id_t) const;
 	void collectBodies();
 	void breakReplaced();
 	void checkJoints() const;
-	void packJoints();
-	timber::JointPlacement placement(const timber::PackedJoint& joint) const
+	void takeJoints();
+	timber::JointPlacement placement(const timber::JointEntry& joint) const
 	{
 		const Placement &a = bodies[joint.bodyA], &b = bodies[joint.bodyB];
 		return { a.axes, b.axes, b.position - a.position };
 	}
 	void computeForce(size_t joint);
-	Real createdBetween(
-	        const timber::PackedJoint&, const timber::JointForce& before, const timber::JointForce& now) const;
+	Real createdSince(const timber::JointForce& before, const timber::JointEntry&) const;
 	void computeForces();
 	void breakSprings(size_t joint);
-	void breakYielded(size_t joint);
 	void breakAndSum();
 
 public:
 	void action() override;
-	/// Whether no joint was added or changed since the last step.
-	bool areJointsCurrent() const { return packed->isCurrent && packed->joints.size() == joints.size(); }
+	void postLoad(JointEngine&) { takeJoints(); }
+	/// The joints with their springs.
+	timber::JointSet& jointSet() const { return *set; }
 	/// Forces of the joints' springs on the bodies in the last step.
 	const BodyForces& forces() const { return sums; }
 	int append(const shared_ptr<TimberJoint>&);
@@ -70,15 +68,6 @@ public:
 	boost::python::list pyBreaks() const;
 	/// Breaks a spring and logs it.
 	void breakSpring(size_t joint, const timber::SpringBreak&);
-	/// The contact solver takes over a joint, the forces of which act in this step already.
-	void handOver(size_t joint);
-	/// Sets the forces of a joint that the contact solver has moved. Thread-safe for different joints.
-	void setForce(size_t joint, const timber::JointForce& force) { jointForces[joint] = force; }
-	/// Forces of a joint's unbroken springs in the last step; zero before the first one.
-	timber::JointForce lastForce(size_t joint) const
-	{
-		return joint < jointForces.size() ? jointForces[joint] : timber::JointForce();
-	}
 	/// Power of the springs' forces at the present velocities of a scene's bodies, > 0 if they are stretched: the
 	/// rate of change of the elastic energy. What yielding springs dissipate of it is known after the next step.
 	/// [W]

@@ -48,9 +48,9 @@ boost::python::tuple packedJoints(const shared_ptr<JointEngine>& engine)
 	if (!engine) throw std::invalid_argument("packed_joints: engine = None: it must be a JointEngine");
 	std::vector<float> loads;
 	std::vector<std::uint8_t> broken;
-	for (const shared_ptr<TimberJoint>& j : engine->joints) {
-		loads.push_back(float(j->load()));
-		broken.push_back(std::uint8_t(j->broken.size() - j->intactSprings()));
+	for (const timber::JointEntry& j : engine->jointSet().joints) {
+		loads.push_back(float(engine->jointSet().load(j)));
+		broken.push_back(std::uint8_t(j.springs - j.intact));
 	}
 	return boost::python::make_tuple(bytes(loads), bytes(broken));
 }

@@ -17,8 +17,8 @@ namespace {
 	/// Number of joints without a spring left.
 	int brokenJoints(const JointEngine& engine)
 	{
-		return int(std::count_if(
-		        engine.joints.begin(), engine.joints.end(), [](const auto& j) { return j->isBroken(); }));
+		const std::vector<timber::JointEntry>& joints = engine.jointSet().joints;
+		return int(std::count_if(joints.begin(), joints.end(), [](const auto& j) { return j.isBroken(); }));
 	}
 
 	/// Whether each body has a joint with a spring left; all without a JointEngine.
@@ -26,10 +26,10 @@ namespace {
 	{
 		const JointEngine* engine = findEngine<JointEngine>(scene);
 		std::vector<bool> joined(scene.bodies->size(), !engine);
-		for (size_t k = 0; engine && k < engine->joints.size(); ++k) {
-			const TimberJoint& j = *engine->joints[k];
-			if (!j.isBroken() && bodyAt(scene, j.id1) && bodyAt(scene, j.id2))
-				joined[j.id1] = joined[j.id2] = true;
+		for (size_t k = 0; engine && k < engine->jointSet().joints.size(); ++k) {
+			const timber::JointEntry& j = engine->jointSet().joints[k];
+			if (!j.isBroken() && bodyAt(scene, j.bodyA) && bodyAt(scene, j.bodyB))
+				joined[j.bodyA] = joined[j.bodyB] = true;
 		}
 		return joined;
 	}
@@ -116,29 +116,30 @@ void Sampler::recordAxes()
 	}
 }
 
-void Sampler::recordJoint(const TimberJoint& joint, const timber::JointForce& total, size_t k)
+void Sampler::recordJoint(const timber::JointEntry& joint, size_t k)
 {
-	const Body *b1 = bodyAt(*scene, joint.id1), *b2 = bodyAt(*scene, joint.id2);
+	const Body *b1 = bodyAt(*scene, joint.bodyA), *b2 = bodyAt(*scene, joint.bodyB);
 	if (!b1 || !b2) return;
 	const State &s1 = *b1->state, &s2 = *b2->state;
 	const Vector3r normal = s1.ori * joint.normal;
-	raise(opening[k], (s2.pos - s1.pos + s2.ori * joint.centre2() - s1.ori * joint.centre1()).dot(normal));
+	raise(opening[k], (s2.pos - s1.pos + s2.ori * joint.centreB - s1.ori * joint.centreA).dot(normal));
 	if (joint.isBroken()) return;
-	const Real along = total.force.dot(normal); // on body 1
-	const bool isWall = joint.ks == 0; // its springs act along the normal, which lies in the plane of the wall
+	const Real along = joint.total.force.dot(normal); // on body 1
+	const bool isWall
+	        = joint.stiffness.shear == 0; // its springs act along the normal, which lies in the plane of the wall
 	if (!isWall) raise(pull[k], along);
-	raise(shear[k], isWall ? math::abs(along) : (total.force - along * normal).norm());
-	raise(load[k], joint.loadOf(total));
+	raise(shear[k], isWall ? math::abs(along) : (joint.total.force - along * normal).norm());
+	raise(load[k], joint.strength.load(joint.total));
 }
 
 void Sampler::recordJoints()
 {
 	const JointEngine* engine = findEngine<JointEngine>(*scene);
-	const size_t count = engine ? engine->joints.size() : 0;
+	const size_t count = engine ? engine->jointSet().joints.size() : 0;
 	for (vector<Real>* values : { &pull, &shear, &load, &opening })
 		values->resize(count, 0);
 	for (size_t k = 0; k < count; ++k)
-		recordJoint(*engine->joints[k], engine->lastForce(k), k);
+		recordJoint(engine->jointSet().joints[k], k);
 }
 
 void Sampler::action()

@@ -10,7 +10,7 @@ class Sampler : public GlobalEngine {
 	void recordRow();
 	void recordGroups();
 	void recordAxes();
-	void recordJoint(const TimberJoint&, const timber::JointForce&, size_t k);
+	void recordJoint(const timber::JointEntry&, size_t k);
 	void recordJoints();
 
 public:

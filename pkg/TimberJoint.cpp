@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <TimberJoint.hpp>
 #include <validation.hpp>
-#include <numeric>
 
 namespace yade {
 
@@ -17,12 +16,6 @@ namespace {
 		        mayBeInfinite ? "> 0" : "finite and > 0");
 	}
 
-	/// Of vectors, of which there is at least one.
-	Vector3r mean(const vector<Vector3r>& v)
-	{
-		return std::accumulate(v.begin(), v.end(), Vector3r(Vector3r::Zero())) / Real(v.size());
-	}
-
 	void requireAnchors(const char* attribute, const vector<Vector3r>& anchors)
 	{
 		for (const Vector3r& x : anchors)
@@ -30,7 +23,7 @@ namespace {
 	}
 }
 
-void TimberJoint::validate() const
+void TimberJoint::validate(size_t springs) const
 {
 	const bool hasSprings = !anchors1.empty() && !anchors2.empty();
 	requireGiven(hasSprings, "TimberJoint.kn", kn, false);
@@ -42,21 +35,21 @@ void TimberJoint::validate() const
 	requireAnchors("TimberJoint.anchors1", anchors1);
 	requireAnchors("TimberJoint.anchors2", anchors2);
 	validateLaw();
-	if (!hasSprings && broken.empty()) return; // not complete yet
+	if (!hasSprings && springs == 0) return; // not complete yet
 	require(anchors1.size() == anchors2.size(), "number of TimberJoint.anchors2", anchors2.size(),
 	        "that of anchors1");
-	require(broken.empty() || broken.size() == anchors1.size(), "number of TimberJoint.broken", broken.size(),
+	require(springs == 0 || springs == anchors1.size(), "number of TimberJoint.broken", springs,
 	        "that of anchors1");
 }
 
 void TimberJoint::validateLaw() const
 {
-	require(law == "brittle" || yields(), "TimberJoint.law", law, "brittle, slip or wall");
+	require(law == "brittle" || law == "slip" || law == "wall", "TimberJoint.law", law, "brittle, slip or wall");
 	require(frictionShare >= 0 && frictionShare <= 1, "TimberJoint.frictionShare", frictionShare, "in [0, 1]");
 	require(softeningStretch > 0, "TimberJoint.softeningStretch", softeningStretch, "> 0");
 	require(ultimateStretch > 0, "TimberJoint.ultimateStretch", ultimateStretch, "> 0");
 	if (!yields() || std::isnan(kn)) return;
-	if (isWall) return validateWall();
+	if (law == "wall") return validateWall();
 	require(kn == ks || ks == 0, "TimberJoint.ks", ks, "equal to kn, or 0, with the law slip");
 	if (!envelope.empty()) return validateEnvelope();
 	require(softeningStretch > strength / kn && std::isfinite(softeningStretch), "TimberJoint.softeningStretch",
@@ -85,121 +78,62 @@ void TimberJoint::validateEnvelope() const
 		points << (largest > 0 ? ", " : "") << point.x() << " " << point.y();
 		largest = math::max(largest, point.y());
 	}
-	const char* const unmet = isWall ? timber::WallLaw::unmetBy(wallCycles(1), envelopePoints(1))
-	                                 : timber::SlipLaw::unmetBy(kn, envelopePoints(1));
+	const char* const unmet = law == "wall" ? timber::WallLaw::unmetBy(wallCycles(1), envelopePoints(1))
+	                                        : timber::SlipLaw::unmetBy(kn, envelopePoints(1));
 	require(!unmet, "TimberJoint.envelope", points.str(), unmet ? unmet : "");
 	require(math::abs(strength - largest) <= 1e-9 * largest, "TimberJoint.strength", strength,
 	        "the largest force of TimberJoint.envelope");
 }
 
+/// The state of the saved scene, or the present one with the attributes that were set, which are empty afterwards.
+timber::SpringsState TimberJoint::takeState()
+{
+	const bool isSaved = !saved.broken.empty();
+	timber::SpringsState state = isSaved ? saved : set->state(entry());
+	if (!isSaved) state.modes = {}; // computed for other attributes
+	saved = {};
+	const auto take = [](auto& from, auto& to) {
+		if (!from.empty()) to = std::move(from);
+		from.clear();
+	};
+	take(broken, state.broken);
+	take(forces, state.forces);
+	take(stretches, state.stretches);
+	take(plasticStretches, state.plastic);
+	take(largestStretches, state.largest);
+	return state;
+}
+
 void TimberJoint::postLoad(TimberJoint&)
 {
-	storeSprings();
-	if (packed) packed->isCurrent = false;
-	packed.reset();
-	if (isRead) modes.state.springs = 0; // computed for other attributes
-	isRead = true;
-	isSlip = law == "slip";
-	isWall = law == "wall";
-	validate();
-	const bool hasSprings = !anchors1.empty() && !anchors2.empty();
-	if (hasSprings) broken.resize(anchors1.size(), 0);
-	intact = size_t(std::count(broken.begin(), broken.end(), 0));
-	if (!hasSprings) return;
-	mean1 = mean(anchors1);
-	mean2 = mean(anchors2);
-	forces.resize(anchors1.size(), Vector3r::Zero());
-	stretches.resize(anchors1.size(), Vector3r::Zero());
-	if (isStiff()) halfStretches.resize(anchors1.size(), Vector3r::Zero());
-	if (isWall) {
-		wall = { wallCycles(share()), backbone() };
-		wallHistories.resize(anchors1.size());
-	}
-	if (isSlip) {
-		slip = { stiffness().normal, frictionShare, backbone() };
-		plasticStretches.resize(anchors1.size(), Vector3r::Zero());
-		largestStretches.resize(anchors1.size(), 0);
-	}
-	for (size_t k = 0; k < broken.size(); ++k)
-		if (broken[k]) breakSpring(k);
+	timber::SpringsState state = takeState();
+	validate(state.broken.size());
+	if (!anchors1.empty() && !anchors2.empty())
+		set->change(index, parameters(), anchors1, anchors2, std::move(state));
 }
 
-void TimberJoint::breakSpring(size_t spring)
+void TimberJoint::moveTo(const shared_ptr<timber::JointSet>& other)
 {
-	const timber::JointSprings changed = springs();
-	if (!broken[spring]) --intact;
-	broken[spring] = 1;
-	forces[spring] = stretches[spring] = Vector3r::Zero();
-	if (packed) packed->set(index, changed);
+	index = other->take(*set, index);
+	set = other;
 }
 
-std::unique_ptr<timber::SpringLaw> TimberJoint::springLaw()
+timber::JointEntry TimberJoint::parameters() const
 {
-	if (isWall) return std::make_unique<timber::WallSprings>(wallSprings());
-	if (isSlip) return std::make_unique<timber::SlipSprings>(slipSprings());
-	return std::make_unique<timber::BrittleSprings>(stiffness(), jointStrength(), normal);
+	timber::JointEntry joint { id1, id2, normal, { share() * kn, share() * ks }, { strength, perJoint },
+		{ dampingRatio, dampingTime }, initialDamping };
+	if (law == "wall") joint.law = timber::WallSprings({ wallCycles(share()), backbone() }, normal);
+	else if (law == "slip")
+		joint.law = timber::SlipSprings({ joint.stiffness.normal, frictionShare, backbone() }, joint.axis());
+	else joint.law = timber::BrittleSprings(joint.stiffness, joint.strength, normal);
+	return joint;
 }
 
-timber::JointForce TimberJoint::yield(const timber::JointPlacement& placement)
+void TimberJoint::setBroken(const vector<int>& flags)
 {
-	const auto forces = [&](timber::SpringLaw&& law) { return yieldingForces(law, placement, axis(), springs()); };
-	return isWall ? forces(wallSprings()) : forces(slipSprings());
-}
-
-std::vector<timber::SpringBreak> TimberJoint::spentSprings(const Matrix3r& axes1)
-{
-	const auto spent = [&](const timber::SpringLaw& law) {
-		return timber::spentSprings(law, stiffness(), axes1, normal, springs());
-	};
-	return isWall ? spent(wallSprings()) : spent(slipSprings());
-}
-
-void TimberJoint::stiffen()
-{
-	storeSprings();
-	halfStretches.resize(anchors1.size(), Vector3r::Zero());
-	if (packed) packed->joints[index].isStiff = true;
-}
-
-void TimberJoint::soften()
-{
-	halfStretches.clear();
-	storedEnergy = 0;
-	if (!packed) return;
-	packed->set(index, { anchors1, anchors2, broken, stretches, forces });
-	packed->joints[index].isStiff = false;
-}
-
-void TimberJoint::breakAll()
-{
-	for (size_t k = 0; k < broken.size(); ++k)
-		breakSpring(k);
-}
-
-void TimberJoint::pack(const shared_ptr<timber::PackedJoints>& to)
-{
-	const timber::JointSprings unpacked = springs();
-	packed = to;
-	index = packed->joints.size();
-	packed->add({ id1, id2, yields(), isStiff(), stiffness(), jointStrength(), normal }, unpacked);
-}
-
-TimberJoint::SpringVectors TimberJoint::lastSprings() const
-{
-	SpringVectors last { stretches, forces };
-	if (isPacked()) timber::unpackSprings(packed->first(packed->joints[index]), last.stretches, last.forces);
-	return last;
-}
-
-void TimberJoint::storeSprings()
-{
-	if (isPacked()) timber::unpackSprings(packed->first(packed->joints[index]), stretches, forces);
-}
-
-timber::JointSprings TimberJoint::springs()
-{
-	storeSprings();
-	return { anchors1, anchors2, broken, stretches, forces };
+	broken = flags;
+	if (flags.empty()) broken.resize(springs().count, 0);
+	postLoad(*this);
 }
 
 std::vector<timber::BackbonePoint> TimberJoint::envelopePoints(Real share) const
@@ -223,30 +157,15 @@ std::vector<timber::BackbonePoint> TimberJoint::backbone() const
 		{ ultimateStretch, 0 } };
 }
 
-Real TimberJoint::loadOf(const timber::JointForce& total) const
-{
-	return (perJoint ? total.sum : math::sqrt(total.largestSquared)) / strength;
-}
-
-Real TimberJoint::load() const
-{
-	timber::JointForce total;
-	for (const Vector3r& f : springForces()) {
-		total.sum += f.norm();
-		total.largestSquared = math::max(total.largestSquared, Real(f.squaredNorm()));
-	}
-	return loadOf(total);
-}
-
 boost::python::list TimberJoint::pySprings() const
 {
-	const vector<Vector3r> pulling = springForces(), stretched = springStretches();
+	const timber::JointSprings all = springs();
 	boost::python::list rows;
-	for (size_t k = 0; k < broken.size(); ++k) {
+	for (size_t k = 0; k < all.count; ++k) {
 		boost::python::dict one;
-		one["force"] = Vector3r(pulling[k]);
-		one["stretch"] = stretched[k].norm();
-		one["broken"] = bool(broken[k]);
+		one["force"] = all.force(k);
+		one["stretch"] = all.stretch(k).norm();
+		one["broken"] = !all.isIntact(k);
 		rows.append(one);
 	}
 	return rows;
@@ -255,7 +174,7 @@ boost::python::list TimberJoint::pySprings() const
 boost::python::list TimberJoint::pyWallHistories() const
 {
 	boost::python::list rows;
-	for (const timber::WallHistory& history : wallHistories) {
+	for (const timber::WallHistory& history : set->state(entry()).wall) {
 		boost::python::dict one;
 		one["stretch"] = history.stretch;
 		one["force"] = history.force;
@@ -271,6 +190,9 @@ boost::python::dict TimberJoint::pyDictCustom() const
 	boost::python::dict attributes;
 	attributes["forces"] = springForces();
 	attributes["stretches"] = springStretches();
+	attributes["broken"] = areBroken();
+	attributes["plasticStretches"] = plastic();
+	attributes["largestStretches"] = largest();
 	return attributes;
 }
 

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// A breakable joint between two bodies (paper, sections 2.4 and 3.2): its attributes, their ranges and what is saved.
-/// JointEngine computes it.
+/// It states the parameters of a joint of a set (kernel/joint_set.hpp), which has all that a step changes.
 #pragma once
-#include <kernel/joint_modes.hpp>
-#include <kernel/packed_joints.hpp>
-#include <kernel/slip_law.hpp>
-#include <kernel/wall_springs.hpp>
+#include <kernel/joint_set.hpp>
 #include <pch.hpp>
 
 namespace boost {
@@ -25,99 +22,59 @@ namespace serialization {
 		ar& make_nvp("stretch", h.stretch) & make_nvp("force", h.force) & make_nvp("largest", h.largest)
 		        & make_nvp("reversed", h.reversed);
 	}
+	template <class Archive> void serialize(Archive& ar, timber::SpringsState& s, const unsigned int)
+	{
+		ar& make_nvp("broken", s.broken) & make_nvp("stretches", s.stretches) & make_nvp("forces", s.forces);
+		ar& make_nvp("plastic", s.plastic) & make_nvp("largest", s.largest) & make_nvp("wall", s.wall);
+		ar& make_nvp("half", s.half) & make_nvp("account", s.account) & make_nvp("modes", s.modes);
+	}
 }
 }
 
 namespace yade {
 
 class TimberJoint : public Serializable {
-	bool isRead = false; ///< attributes were read or set: those set later decide about the modes
-	bool isSlip = false; ///< law == "slip": a comparison of strings for each joint and step takes 2 % of a step
-	bool isWall = false; ///< law == "wall"
-	timber::SlipLaw slip; ///< of a spring, from the attributes
-	timber::WallLaw wall; ///< likewise
-	/// Of the engine: they have the springs' stretches and forces of the last step. Null: the attributes have them,
-	/// and may have been changed.
-	shared_ptr<timber::PackedJoints> packed;
-	size_t index = 0; ///< in `packed`
-	size_t intact = 0; ///< number of unbroken springs
-	Vector3r mean1 = Vector3r::Zero(), mean2 = Vector3r::Zero(); ///< of the anchors [m]
+	/// Its own until a JointEngine takes the joint into its set.
+	shared_ptr<timber::JointSet> set { new timber::JointSet };
+	size_t index = 0; ///< in the set
 
-	struct SpringVectors {
-		vector<Vector3r> stretches, forces;
-	};
-	/// Whether `packed` has stretches and forces.
-	bool isPacked() const { return packed && !yields() && !isStiff(); }
-	/// In the last step.
-	SpringVectors lastSprings() const;
-	/// Sets the attributes to those of the last step.
-	void storeSprings();
-	timber::WallSprings wallSprings() { return { wall, normal, wallHistories }; }
-	timber::SlipSprings slipSprings() { return { slip, axis(), { plasticStretches, largestStretches } }; }
-	/// Of a spring in the joint's stiffness and strength.
-	Real share() const { return perJoint ? Real(1) / anchors1.size() : 1; }
-
-public:
-	void preSave(TimberJoint&) { storeSprings(); }
-	void postLoad(TimberJoint&);
-	void validate() const;
+	timber::JointEntry& entry() const { return set->joints[index]; }
+	timber::JointSprings springs() const { return set->springs(entry()); }
+	timber::SpringsState takeState();
 	void validateLaw() const;
 	void validateWall() const;
 	void validateEnvelope() const;
-	/// Stiffness of a spring; perJoint: its share of the joint's stiffness.
-	timber::JointStiffness stiffness() const { return { share() * kn, share() * ks }; }
-	/// Mean of the springs' ends, in the frame of each body. [m]
-	const Vector3r& centre1() const { return mean1; }
-	const Vector3r& centre2() const { return mean2; }
-	size_t intactSprings() const { return intact; }
-	bool isBroken() const { return intact == 0; }
-	bool isDamped() const { return dampingRatio > 0 || dampingTime > 0; }
-	/// Dashpots at a tangent stiffness of the unbroken springs over their initial one. [-]
-	timber::JointDamping damping(Real tangent) const
-	{
-		return { dampingRatio, dampingTime, initialDamping ? 1 : tangent };
-	}
-	/// Largest spring force over the strength; perJoint: sum of the spring forces over the strength. [-]
-	Real load() const;
-	/// Of a joint with these forces.
-	Real loadOf(const timber::JointForce&) const;
-	vector<Vector3r> springForces() const { return lastSprings().forces; }
-	vector<Vector3r> springStretches() const { return lastSprings().stretches; }
-	boost::python::list pySprings() const;
-	boost::python::dict pyDictCustom() const override;
-	/// Appends the joint to packed joints, which have its forces and stretches from then on.
-	void pack(const shared_ptr<timber::PackedJoints>&);
-	timber::JointStrength jointStrength() const { return { strength, perJoint }; }
-	/// With the stretches and forces of the last step. For the thread that computes the steps: others must not
-	/// write them.
-	timber::JointSprings springs();
-	bool yields() const { return isSlip || isWall; }
+	/// Of a spring in the joint's stiffness and strength.
+	Real share() const { return perJoint ? Real(1) / anchors1.size() : 1; }
 	/// Points of the envelope, with a share of its forces.
 	std::vector<timber::BackbonePoint> envelopePoints(Real share) const;
 	/// Backbone of a spring that yields; perJoint: with its share of the joint's strength.
 	std::vector<timber::BackbonePoint> backbone() const;
-	/// Whether a single unbroken spring acts along the normal.
-	bool isAxial() const { return ks == 0 && intact == 1; }
-	/// Of springs that yield along the normal only (ks = 0), else zero. [-]
-	Vector3r axis() const { return ks == 0 ? normal : Vector3r::Zero(); }
-	/// Forces and new histories of springs that yield.
-	timber::JointForce yield(const timber::JointPlacement&);
-	/// Springs that yield and have no strength left. axes1: rotation matrix of body 1
-	std::vector<timber::SpringBreak> spentSprings(const Matrix3r& axes1);
 	/// Law of a wall with a share of its forces.
 	timber::WallCycles wallCycles(Real share) const;
+	timber::JointEntry parameters() const;
+
+public:
+	void preSave(TimberJoint&) { saved = set->state(entry()); }
+	void postSave(TimberJoint&) { saved = {}; }
+	void postLoad(TimberJoint&);
+	/// springs: number of those that are known to be broken or not
+	void validate(size_t springs) const;
+	bool yields() const { return law != "brittle"; }
+	bool isBroken() const { return entry().isBroken(); }
+	vector<int> areBroken() const { return springs().broken(); }
+	void setBroken(const vector<int>&);
+	vector<Vector3r> springForces() const { return springs().all(&timber::JointSprings::force); }
+	vector<Vector3r> springStretches() const { return springs().all(&timber::JointSprings::stretch); }
+	vector<Vector3r> plastic() const { return set->state(entry()).plastic; }
+	vector<Real> largest() const { return set->state(entry()).largest; }
+	Real account() const { return entry().account; }
+	Real load() const { return set->load(entry()); }
+	boost::python::list pySprings() const;
 	boost::python::list pyWallHistories() const;
-	timber::SpringGroup springGroup() const { return { anchors1, broken, stiffness(), normal }; }
-	void breakSpring(size_t spring);
-	void breakAll();
-	/// Law of the springs in the contact solver. Valid until an attribute is set.
-	std::unique_ptr<timber::SpringLaw> springLaw();
-	/// Whether the contact solver moves the springs: the step does not resolve them.
-	bool isStiff() const { return !halfStretches.empty(); }
-	/// From this step on the contact solver moves the springs.
-	void stiffen();
-	/// From the next step on JointEngine moves the springs.
-	void soften();
+	boost::python::dict pyDictCustom() const override;
+	/// Appends the joint to a set, which has it from then on.
+	void moveTo(const shared_ptr<timber::JointSet>&);
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(TimberJoint, Serializable, "Springs between two bodies, each anchored in "
@@ -177,24 +134,25 @@ public:
 			"unbroken springs that have yielded, in place of the tangent stiffness. [-]"))
 		((string, kind, , , "Kind of the joint: column_beam, brace_beam, ... [-]"))
 		((string, name, , , "Name of the joint, for reports. [-]"))
-		((vector<int>, broken, , Attr::triggerPostLoad, "1 for each broken spring, else 0. [-]"))
-		((vector<Vector3r>, forces, , Attr::hidden, "Force of each spring when the scene was saved. [N]"))
-		((vector<Vector3r>, stretches, , Attr::hidden, "Stretch of each spring when the scene was saved. [m]"))
-		((vector<Vector3r>, plasticStretches, , Attr::readonly, "Law slip: plastic stretch of each spring, "
-			"frame of body 1. [m]"))
-		((vector<Real>, largestStretches, , Attr::readonly, "Law slip: largest length of each spring's stretch "
-			"so far. [m]"))
-		((vector<timber::WallHistory>, wallHistories, , Attr::hidden, "Law wall: history of each spring. "
-			"[m, N]"))
-		((Real, storedEnergy, 0, Attr::readonly, "Energy that the springs of a stiff joint can return. [J]"))
-		((vector<Vector3r>, halfStretches, , Attr::hidden, "Stretches of a stiff joint in the middle between "
-			"the last placement and the next one, frame of body 1; empty: not stiff. [m]"))
-		((timber::JointModes, modes, , Attr::hidden, "Vibration modes of a damped joint. [-]")),
-		,
+		((timber::SpringsState, saved, , Attr::hidden, "State while the scene is saved and loaded. [-]"))
+		((vector<int>, broken, , Attr::hidden | Attr::noSave, "Of an update of attributes. [-]"))
+		((vector<Vector3r>, forces, , Attr::hidden | Attr::noSave, "Likewise. [N]"))
+		((vector<Vector3r>, stretches, , Attr::hidden | Attr::noSave, "Likewise. [m]"))
+		((vector<Vector3r>, plasticStretches, , Attr::hidden | Attr::noSave, "Likewise. [m]"))
+		((vector<Real>, largestStretches, , Attr::hidden | Attr::noSave, "Likewise. [m]")),
+		set->joints.resize(1),
+		.add_property("broken", &TimberJoint::areBroken, &TimberJoint::setBroken, "1 for each broken spring, "
+			"else 0. [-] :yattrtype:`vector<int>`")
 		.add_property("forces", &TimberJoint::springForces, "Force of each spring on body 1 in the last step, "
 			"world frame. [N]")
 		.add_property("stretches", &TimberJoint::springStretches, "From the end in body 1 to the end in body 2 "
 			"of each spring in the last step, world frame. [m]")
+		.add_property("plasticStretches", &TimberJoint::plastic, "Law slip: plastic stretch of each spring, "
+			"frame of body 1. [m]")
+		.add_property("largestStretches", &TimberJoint::largest, "Law slip: largest length of each spring's "
+			"stretch so far. [m]")
+		.add_property("storedEnergy", &TimberJoint::account, "Energy that the springs of a stiff joint can "
+			"return. [J]")
 		.add_property("springs", &TimberJoint::pySprings, "List of dictionaries: force on body 1 [N], stretch "
 			"[m], broken.")
 		.add_property("cycles", &TimberJoint::pyWallHistories, "Law wall: list of dictionaries, one of each "

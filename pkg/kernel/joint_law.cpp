@@ -16,13 +16,6 @@ namespace {
 	{
 		return isFinite(p.axesA) && isFinite(p.axesB) && isFinite(p.distance);
 	}
-	[[maybe_unused]] bool isValid(const JointSprings& s)
-	{
-		const size_t count = s.broken.size();
-		return s.anchorsA.size() == count && s.anchorsB.size() == count && s.stretches.size() == count
-		        && s.forces.size() == count;
-	}
-
 	/// Energy of a spring at the middle of the last step, the time of the velocities: it does not act in this step
 	/// any more. [J]
 	double energyAtBreak(const SpringForce<double>& f, const Vec3& anchorB, const JointMotion& motion)
@@ -36,40 +29,44 @@ namespace {
 
 } // namespace
 
-void packSprings(const JointSprings& springs, SpringLanes* first)
+std::vector<Vec3> JointSprings::all(Vec3 (JointSprings::*value)(size_t) const) const
 {
-	assert(isValid(springs));
-	const Vec3s none = Vec3s::Constant(Lanes(0.));
-	const size_t groups = groupsOf(springs.broken.size());
-	std::fill(first, first + groups, SpringLanes { none, none, {}, none, none });
-	for (size_t i = 0; i < springs.broken.size(); ++i) {
-		SpringLanes& group = first[i / laneCount];
-		const size_t at = i % laneCount;
-		setLane(group.anchorsA, at, springs.anchorsA[i]);
-		setLane(group.anchorsB, at, springs.anchorsB[i]);
-		setLane(group.stretches, at, springs.stretches[i]);
-		setLane(group.forces, at, springs.forces[i]);
-		group.intact[at] = springs.broken[i] ? 0 : ~std::int64_t(0);
-	}
+	std::vector<Vec3> vectors;
+	for (size_t i = 0; i < count; ++i)
+		vectors.push_back((this->*value)(i));
+	return vectors;
 }
 
-void unpackSprings(const SpringLanes* first, std::vector<Vec3>& stretches, std::vector<Vec3>& forces)
+std::vector<int> JointSprings::broken() const
 {
-	assert(stretches.size() == forces.size());
-	for (size_t i = 0; i < forces.size(); ++i) {
-		stretches[i] = lane(first[i / laneCount].stretches, i % laneCount);
-		forces[i] = lane(first[i / laneCount].forces, i % laneCount);
+	std::vector<int> flags;
+	for (size_t i = 0; i < count; ++i)
+		flags.push_back(!isIntact(i));
+	return flags;
+}
+
+void JointSprings::assign(
+        const std::vector<Vec3>& anchorsA, const std::vector<Vec3>& anchorsB, const std::vector<int>& broken) const
+{
+	assert(anchorsA.size() == count && anchorsB.size() == count && broken.size() == count);
+	const Vec3s none = Vec3s::Constant(Lanes(0.));
+	std::fill(groups, groups + groupsOf(count), SpringLanes { none, none, {}, none, none });
+	for (size_t i = 0; i < count; ++i) {
+		setLane(group(i).anchorsA, i % laneCount, anchorsA[i]);
+		setLane(group(i).anchorsB, i % laneCount, anchorsB[i]);
+		group(i).intact[i % laneCount] = broken[i] ? 0 : ~std::int64_t(0);
 	}
 }
 
 void springForces(const JointStiffness& stiffness, const JointPlacement& placement, const Vec3& normal,
-        SpringLanes* first, const SpringLanes* end, JointForce& total)
+        const JointSprings& springs, JointForce& total)
 {
 	assert(isValid(stiffness) && isValid(placement) && isUnit(normal));
 	const JointStiffness k = stiffness; // a copy stays in registers
 	Sums<11> sums;
 	Lanes largestSquared = 0.;
-	for (SpringLanes* s = first; s != end; ++s) {
+	const SpringLanes* const last = springs.groups + groupsOf(springs.count);
+	for (SpringLanes* s = springs.groups; s != last; ++s) {
 		const Vec3s armB = broadcast<Lanes>(placement.axesB) * s->anchorsB,
 		            end = broadcast<Lanes>(placement.distance) + armB,
 		            stretch = select(s->intact, Vec3s(end - broadcast<Lanes>(placement.axesA) * s->anchorsA),
@@ -105,15 +102,14 @@ JointForce yieldingForces(
 	JointForce total;
 	total.isKnown = true;
 	double tangents = 0, intact = 0;
-	for (size_t i = 0; i < springs.broken.size(); ++i) {
-		if (springs.broken[i]) continue;
-		const Vec3 armB = placement.axesB * springs.anchorsB[i], end = placement.distance + armB;
-		Vec3 stretch = end - placement.axesA * springs.anchorsA[i];
+	for (size_t i = 0; i < springs.count; ++i) {
+		if (!springs.isIntact(i)) continue;
+		const Vec3 armB = placement.axesB * springs.anchorB(i), end = placement.distance + armB;
+		Vec3 stretch = end - placement.axesA * springs.anchorA(i);
 		if (!worldAxis.isZero()) stretch = worldAxis.dot(stretch) * worldAxis;
 		const SpringState state = law.commit(i, placement.axesA.transpose() * stretch);
 		const Vec3 force = placement.axesA * state.force;
-		springs.stretches[i] = stretch;
-		springs.forces[i] = force;
+		springs.set(i, stretch, force);
 		tangents += state.share;
 		++intact;
 		total.force += force;
@@ -144,20 +140,20 @@ BreakCause breakCause(const SpringForce<double>& f)
 std::vector<SpringBreak> springBreaks(const JointStiffness& k, const JointStrength& limit,
         const JointPlacement& placement, const Vec3& normal, const JointSprings& springs, const JointMotion& motion)
 {
-	assert(limit.strength > 0 && isValid(k) && isValid(springs) && isUnit(normal) && motion.h > 0);
+	assert(limit.strength > 0 && isValid(k) && isUnit(normal) && motion.h > 0);
 	std::vector<SpringBreak> breaks;
 	double sum = 0;
-	for (const Vec3& force : springs.forces)
+	for (const Vec3& force : springs.all(&JointSprings::force))
 		sum += force.norm();
-	for (size_t i = 0; i < springs.broken.size(); ++i) {
+	for (size_t i = 0; i < springs.count; ++i) {
+		const Vec3 force = springs.force(i);
 		// Of the force at the placement: it breaks on the way
-		const double share = limit.strength / (limit.perJoint ? sum : springs.forces[i].norm());
-		const bool exceeds
-		        = limit.perJoint || springs.forces[i].squaredNorm() > limit.strength * limit.strength;
-		if (springs.broken[i] || !exceeds) continue;
-		SpringForce<double> f = springForce<double>(k, springs.stretches[i], placement.axesA * normal);
-		breaks.push_back({ i, breakCause(f), share * springs.forces[i].norm(),
-		        energyAtBreak(f, placement.axesB * springs.anchorsB[i], motion) });
+		const double share = limit.strength / (limit.perJoint ? sum : force.norm());
+		const bool exceeds = limit.perJoint || force.squaredNorm() > limit.strength * limit.strength;
+		if (!springs.isIntact(i) || !exceeds) continue;
+		SpringForce<double> f = springForce<double>(k, springs.stretch(i), placement.axesA * normal);
+		breaks.push_back({ i, breakCause(f), share * force.norm(),
+		        energyAtBreak(f, placement.axesB * springs.anchorB(i), motion) });
 	}
 	return breaks;
 }
@@ -167,10 +163,10 @@ std::vector<SpringBreak> spentSprings(const SpringLaw& law, const JointStiffness
 {
 	assert(isValid(k) && isUnit(normal));
 	std::vector<SpringBreak> breaks;
-	for (size_t i = 0; i < springs.broken.size(); ++i)
-		if (!springs.broken[i] && law.isSpent(i))
+	for (size_t i = 0; i < springs.count; ++i)
+		if (springs.isIntact(i) && law.isSpent(i))
 			breaks.push_back(
-			        { i, breakCause(springForce<double>(k, springs.stretches[i], axesA * normal)), 0, 0 });
+			        { i, breakCause(springForce<double>(k, springs.stretch(i), axesA * normal)), 0, 0 });
 	return breaks;
 }
 

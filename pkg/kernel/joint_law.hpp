@@ -4,14 +4,14 @@
 /// Signs: the normal points from body A to body B; forces act on A, B gets the opposite. Contacts have the opposite
 /// convention (contact_law.hpp).
 /// A step:
-///     1. springForces() computes stretches and forces for the bodies' placement, of springs that packSprings() has
-///       packed;
+///     1. springForces() computes stretches and forces for the bodies' placement;
 ///     2. isOverloaded() applies the strength, of each spring or of the whole joint;
 ///     3. springBreaks() lists the springs of an overloaded joint that break. The caller marks them broken and computes
 ///       the forces again.
 #pragma once
 #include "kinematics.hpp"
 #include "spring_law.hpp"
+#include <numeric>
 
 namespace timber {
 
@@ -54,25 +54,49 @@ struct JointPlacement {
 	Vec3 distance;
 };
 
-/// A joint's springs, one entry each. Vectors of the same length.
-struct JointSprings {
-	const std::vector<Vec3>&anchorsA, &anchorsB; ///< in the bodies' frames [m]
-	const std::vector<int>& broken; ///< 1 for a broken spring, else 0
-	std::vector<Vec3>& stretches; ///< anchor of B minus anchor of A, world; zero for a broken spring [m]
-	std::vector<Vec3>& forces; ///< on A, world; zero for a broken spring [N]
-};
-
-/// laneCount springs of a joint: a group of the packed form of JointSprings. Lanes without a spring count as broken.
+/// laneCount springs of a joint. Lanes without a spring count as broken.
 struct SpringLanes {
 	Vec3s anchorsA, anchorsB; ///< in the bodies' frames [m]
 	Lanes::Mask intact; ///< springs that are not broken
-	Vec3s stretches, forces; ///< as in JointSprings
+	Vec3s stretches; ///< anchor of B minus anchor of A, world; zero for a broken spring [m]
+	Vec3s forces; ///< on A, world; zero for a broken spring [N]
 };
 
-/// Packs a joint's springs into groupsOf(their number) groups from `first` on.
-void packSprings(const JointSprings& springs, SpringLanes* first);
-/// Stretches and forces of packed springs, as many as the vectors have entries.
-void unpackSprings(const SpringLanes* first, std::vector<Vec3>& stretches, std::vector<Vec3>& forces);
+/// The springs of a joint, in groupsOf(count) groups, which it does not own.
+struct JointSprings {
+	SpringLanes* groups;
+	size_t count;
+
+	SpringLanes& group(size_t i) const { return groups[i / laneCount]; }
+	bool isIntact(size_t i) const { return lane(group(i).intact, i % laneCount); }
+	Vec3 anchorA(size_t i) const { return lane(group(i).anchorsA, i % laneCount); }
+	Vec3 anchorB(size_t i) const { return lane(group(i).anchorsB, i % laneCount); }
+	Vec3 stretch(size_t i) const { return lane(group(i).stretches, i % laneCount); }
+	Vec3 force(size_t i) const { return lane(group(i).forces, i % laneCount); }
+	/// One of these vectors of each spring.
+	std::vector<Vec3> all(Vec3 (JointSprings::*value)(size_t) const) const;
+	std::vector<int> broken() const; ///< 1 for each broken spring, else 0
+	/// Stretch and force of an unbroken spring.
+	void set(size_t i, const Vec3& stretch, const Vec3& force) const
+	{
+		setLane(group(i).stretches, i % laneCount, stretch);
+		setLane(group(i).forces, i % laneCount, force);
+	}
+	void breakSpring(size_t i) const
+	{
+		clearLane(group(i).intact, i % laneCount);
+		set(i, Vec3::Zero(), Vec3::Zero());
+	}
+	/// Springs without stretch and force. Vectors of `count` entries.
+	void assign(const std::vector<Vec3>& anchorsA, const std::vector<Vec3>& anchorsB,
+	        const std::vector<int>& broken) const;
+};
+
+/// Of vectors, of which there is at least one.
+inline Vec3 mean(const std::vector<Vec3>& v)
+{
+	return std::accumulate(v.begin(), v.end(), Vec3(Vec3::Zero())) / double(v.size());
+}
 
 /// Sums over a joint's unbroken springs; forces on A, torques about the bodies' own centres.
 struct JointForce {
@@ -92,11 +116,9 @@ struct JointForce {
 	}
 };
 
-/// Stretches and forces of a joint's springs. normal: in the frame of A; first, end: the groups of springs, out: their
-/// stretches and forces;
-/// total: out.
+/// Stretches and forces of a joint's springs. normal: in the frame of A; total: out.
 void springForces(const JointStiffness& stiffness, const JointPlacement& placement, const Vec3& normal,
-        SpringLanes* first, const SpringLanes* end, JointForce& total);
+        const JointSprings& springs, JointForce& total);
 
 /// The same of springs with a history, which goes on; the entries of broken springs stay as they are. axis: unit vector
 /// in the frame of A, on which the stretches are projected; zero: the springs act in all directions.
@@ -109,6 +131,8 @@ struct JointStrength {
 	/// Whether P_max is that of the joint: all springs break when the sum of their forces exceeds it; else of each
 	/// spring.
 	bool perJoint;
+	/// Largest spring force over the strength; perJoint: sum of the spring forces over the strength. [-]
+	double load(const JointForce& f) const { return (perJoint ? f.sum : std::sqrt(f.largestSquared)) / strength; }
 };
 bool isOverloaded(const JointStrength& limit, const JointForce& force);
 
@@ -142,13 +166,14 @@ std::vector<SpringBreak> spentSprings(const SpringLaw& law, const JointStiffness
 /// The springs in a step that does not resolve them: forces within the strength, springs that reach it break at the
 /// end of the step.
 class BrittleSprings : public SpringLaw {
-	Mat3 stiffness; ///< K, in the axes of A [N/m]
-	JointStrength strength;
+	Mat3 stiffness = Mat3::Zero(); ///< K, in the axes of A [N/m]
+	JointStrength strength { 0, false };
 
 	SpringState elastic(const Vec3& stretch) const;
 	void weaken(SpringState& state, double share) const;
 
 public:
+	BrittleSprings() = default;
 	/// normal: in the frame of A
 	BrittleSprings(const JointStiffness&, const JointStrength&, const Vec3& normal);
 	SpringState trial(size_t spring, const Vec3& to) const override;

@@ -17,21 +17,12 @@ namespace {
 		        + (springs.stiffness.normal - springs.stiffness.shear) * springs.normal
 		                * springs.normal.transpose();
 		Mat6 matrix = Mat6::Zero();
-		for (size_t i = 0; i < springs.broken.size(); ++i) {
-			if (springs.broken[i]) continue;
-			const Mat3 r = crossMatrix(springs.anchors[i] - centre);
+		for (const Vec3& anchor : springs.anchors) {
+			const Mat3 r = crossMatrix(anchor - centre);
 			matrix.topLeftCorner<3, 3>() += k;
 			matrix.bottomRightCorner<3, 3>() -= r * k * r;
 		}
 		return matrix;
-	}
-
-	Vec3 centreOf(const SpringGroup& springs)
-	{
-		Vec3 sum = Vec3::Zero();
-		for (size_t i = 0; i < springs.broken.size(); ++i)
-			if (!springs.broken[i]) sum += springs.anchors[i];
-		return sum / double(springs.count());
 	}
 
 	/// Part of a body in R.
@@ -133,12 +124,11 @@ namespace {
 JointModes jointModes(const SolverBody& a, const SolverBody& b, const Mat3& axesA, const SpringGroup& springs,
         const JointState& state)
 {
-	assert(isRotation(axesA) && isUnit(springs.normal) && springs.anchors.size() == springs.broken.size()
-	        && springs.count() > 0);
+	assert(isRotation(axesA) && isUnit(springs.normal) && !springs.anchors.empty());
 	assert(springs.stiffness.normal > 0 && springs.stiffness.shear >= 0 && pairInverseMass(a, b) > 0);
 	JointModes result;
 	result.state = state;
-	result.centre = centreOf(springs);
+	result.centre = mean(springs.anchors);
 	const Vec3 arm = axesA * result.centre;
 	const Mat6 axes = twice(axesA),
 	           responseB = axes.transpose() * twistResponse(b, arm + a.position - b.position) * axes,

@@ -64,11 +64,9 @@ namespace timber {
 
 /// The unbroken springs of a joint.
 struct SpringGroup {
-	const std::vector<Vec3>& anchors; ///< ends of all springs in A, in the frame of A [m]
-	const std::vector<int>& broken; ///< 1 for a broken spring, else 0
+	std::vector<Vec3> anchors; ///< their ends in A, in the frame of A [m]
 	JointStiffness stiffness; ///< of each
 	Vec3 normal; ///< unit, in the axes of A
-	size_t count() const { return size_t(std::count(broken.begin(), broken.end(), 0)); }
 };
 
 /// What the vibration modes of a joint depend on.

@@ -171,10 +171,11 @@ SlipForce slipForce(const SlipLaw& law, const SlipHistory& history, const Vec3& 
 	return forceOf(law, history, stretch, g);
 }
 
-SlipSprings::SlipSprings(const SlipLaw& l, const Vec3& a, const SlipHistories& h)
+SlipSprings::SlipSprings(const SlipLaw& l, const Vec3& a, size_t count)
         : law(l)
         , axis(a)
-        , histories(h)
+        , plastic(count, Vec3::Zero())
+        , largest(count, 0)
 {
 	assert(law.isValid() && (axis.isZero(0) || isUnit(axis)));
 }
@@ -191,7 +192,7 @@ SpringState SlipSprings::projected(const SlipForce& force, const Mat3& tangent) 
 
 SpringState SlipSprings::trial(size_t spring, const Vec3& to) const
 {
-	const SlipHistory before { histories.plastic[spring], histories.largest[spring] };
+	const SlipHistory before { plastic[spring], largest[spring] };
 	const Vec3 stretch = onAxis(to);
 	Mat3 tangent;
 	const SlipForce force = slipForce(law, before, stretch, keepsForce, tangent);
@@ -202,11 +203,11 @@ SpringState SlipSprings::trial(size_t spring, const Vec3& to) const
 
 SpringState SlipSprings::commit(size_t spring, const Vec3& to)
 {
-	const SlipHistory before { histories.plastic[spring], histories.largest[spring] };
+	const SlipHistory before { plastic[spring], largest[spring] };
 	const Vec3 stretch = onAxis(to);
 	const SlipForce force = slipForce(law, before, stretch);
-	histories.plastic[spring] = force.history.plastic;
-	histories.largest[spring] = force.history.largest;
+	plastic[spring] = force.history.plastic;
+	largest[spring] = force.history.largest;
 	SpringState state = projected(force, Mat3::Zero());
 	state.share = tangentAlong(law, before, force.history, stretch.norm());
 	state.breaks = isSpent(spring);

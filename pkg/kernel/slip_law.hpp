@@ -111,28 +111,23 @@ SlipForce slipForce(const SlipLaw& law, const SlipHistory& history, const Vec3& 
 SlipForce slipForce(
         const SlipLaw& law, const SlipHistory& history, const Vec3& stretch, bool keepsForce, Mat3& tangent);
 
-/// Histories of a joint's springs, one entry each.
-struct SlipHistories {
-	std::vector<Vec3>& plastic; ///< p, in the frame of A [m]
-	std::vector<double>& largest; ///< R [m]
-};
-
 /// The springs of a joint.
 class SlipSprings : public SpringLaw {
-	const SlipLaw& law;
+	SlipLaw law;
 	Vec3 axis;
-	SlipHistories histories;
 
 	SpringState projected(const SlipForce& force, const Mat3& tangent) const;
 	Vec3 onAxis(const Vec3& stretch) const { return axis.isZero(0) ? stretch : Vec3(axis.dot(stretch) * axis); }
 
 public:
+	std::vector<Vec3> plastic; ///< p of each spring, in the frame of A [m]
+	std::vector<double> largest; ///< R [m]
+
 	/// axis: unit vector in the frame of A, on which the stretches are projected; zero: they act in all directions.
-	/// law and histories are not copied.
-	SlipSprings(const SlipLaw&, const Vec3& axis, const SlipHistories&);
+	SlipSprings(const SlipLaw&, const Vec3& axis, size_t count = 0);
 	SpringState trial(size_t spring, const Vec3& to) const override;
 	SpringState commit(size_t spring, const Vec3& to) override;
-	bool isSpent(size_t spring) const override { return histories.largest[spring] >= law.ultimateStretch(); }
+	bool isSpent(size_t spring) const override { return largest[spring] >= law.ultimateStretch(); }
 	double steepestFall() const override { return law.steepestFall(); }
 };
 

@@ -48,14 +48,14 @@ namespace {
 } // namespace
 
 template <int n>
-SpringSteps<n>::SpringSteps(std::unique_ptr<SpringLaw> l, std::vector<SpringStep<n>> steps, double stored, double h)
-        : law(std::move(l))
+SpringSteps<n>::SpringSteps(SpringLaw& l, std::vector<SpringStep<n>> steps, double stored, double h)
+        : law(&l)
         , states(steps.size())
         , shared(steps.size(), Vec3::Zero())
         , springs(std::move(steps))
         , account(stored)
 {
-	assert(law && h > 0);
+	assert(h > 0);
 	double rates = 0;
 	for (SpringStep<n>& s : springs) {
 		assert(isFinite(s.from) && isFinite(s.placed) && isFinite(s.applied) && isFinite(s.rates));

@@ -32,7 +32,6 @@
 #include "joint_law.hpp"
 #include "spring_law.hpp"
 #include <Eigen/Core>
-#include <memory>
 
 namespace timber {
 
@@ -71,7 +70,7 @@ template <int n> class SpringSteps {
 	using Mat = ModalMatrix<n>;
 	using Step = ModalStep<n>;
 
-	std::unique_ptr<SpringLaw> law;
+	SpringLaw* law = nullptr;
 	std::vector<SpringState> states; ///< of the springs at z1
 	std::vector<Vec3> shared; ///< of SpringLaw::limit()
 	Vec applied = Vec::Zero(); ///< q_a
@@ -99,8 +98,8 @@ public:
 	double dissipated = 0; ///< by the springs before the step; after finish() also in the step [J]
 
 	SpringSteps() = default;
-	/// Springs with the members of SpringStep up to `rates`, and the forces of the last step.
-	SpringSteps(std::unique_ptr<SpringLaw>, std::vector<SpringStep<n>>, double account, double h);
+	/// Springs with the members of SpringStep up to `rates`, and the forces of the last step. The law is not copied.
+	SpringSteps(SpringLaw&, std::vector<SpringStep<n>>, double account, double h);
 	bool empty() const { return springs.empty(); }
 	/// Sum of the energies at z0. [J]
 	double startEnergy() const;

@@ -33,8 +33,8 @@
 /// Unloading dissipates nothing. On a bound G dd >= 0 and K <= k: (2) is never negative. Where k_p and F_f fall, the
 /// stored energy falls as well. Forces, history and energies do not depend on the length of the steps.
 #pragma once
+#include "spring_law.hpp"
 #include <cstddef>
-#include <vector>
 
 namespace timber {
 
@@ -133,6 +133,24 @@ public:
 	/// the largest force of the path, as on a plateau. The history keeps its largest stretches.
 	WallForce hold(const WallHistory&, double stretch) const;
 	double energy(const WallHistory&) const; ///< stored [J]
+};
+
+/// The springs of a wall. Signs and frames as in slip_law.hpp: stretches are projected on the axis.
+class WallSprings : public SpringLaw {
+	WallLaw law;
+	Vec3 axis;
+
+	SpringState along(const WallForce& force) const;
+
+public:
+	std::vector<WallHistory> histories; ///< of each spring
+
+	/// axis: unit vector in the frame of A
+	WallSprings(const WallLaw& law_, const Vec3& axis_);
+	SpringState trial(size_t spring, const Vec3& to) const override;
+	SpringState commit(size_t spring, const Vec3& to) override;
+	bool isSpent(size_t spring) const override { return law.isSpent(histories[spring]); }
+	double steepestFall() const override { return law.steepestFall(); }
 };
 
 } // namespace timber

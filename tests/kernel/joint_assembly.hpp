@@ -36,6 +36,7 @@ struct Assembly {
 	struct Springs {
 		std::vector<Vec3> half, forces; ///< z, F [m, N]
 		double account = 0; ///< [J]
+		BrittleSprings law {};
 	};
 	std::vector<Springs> history = {}; ///< of the joints
 	Vector displacements = {}; ///< x; empty: zero
@@ -144,11 +145,10 @@ struct Assembly {
 	}
 	JointModes modesOf(const Joint& j) const
 	{
-		std::vector<Vec3> anchors = j.points;
-		for (Vec3& point : anchors)
-			point -= bodies[j.a].position;
-		return jointModes(bodies[j.a], bodies[j.b], Mat3::Identity(),
-		        { anchors, j.broken, j.stiffness, j.normal }, stateOf(j));
+		SpringGroup unbroken { {}, j.stiffness, j.normal };
+		for (size_t i = 0; i < j.points.size(); ++i)
+			if (!j.broken[i]) unbroken.anchors.push_back(j.points[i] - bodies[j.a].position);
+		return jointModes(bodies[j.a], bodies[j.b], Mat3::Identity(), unbroken, stateOf(j));
 	}
 	/// Six numbers of the motion of a joint's bodies as a rate of the stretch of a spring, or its change.
 	Vec3 stretchOf(const Joint& j, size_t spring, const Vector& x) const
@@ -177,7 +177,7 @@ struct Assembly {
 		}
 	}
 	/// Springs of a stiff joint, by whose explicit forces accelerate() has accelerated the bodies already.
-	SpringSteps<6> springSteps(const Joint& j, const Springs& from, const JointModes& modes, double h) const
+	SpringSteps<6> springSteps(const Joint& j, Springs& from, const JointModes& modes, double h) const
 	{
 		const Vector x = displacements.size() > 0 ? displacements : Vector(Vector::Zero(size()));
 		std::vector<SpringStep<6>> steps;
@@ -189,7 +189,8 @@ struct Assembly {
 				        modes.rates(j.points[i] - bodies[j.a].position), from.forces[i] });
 		}
 		const JointStrength none { std::numeric_limits<double>::infinity(), false };
-		return { std::make_unique<BrittleSprings>(j.stiffness, none, j.normal), steps, from.account, h };
+		from.law = { j.stiffness, none, j.normal };
+		return { from.law, steps, from.account, h };
 	}
 	/// Dashpots of one step, and the springs of stiff joints beside explicit ones. Returns the dissipated energy.
 	double damp(double h, int sweeps = 50, double tolerance = 1e-14)

@@ -2,7 +2,7 @@
 /// Joint springs: numbers of the paper, force against the gradient of the energy, and the rule that breaks them.
 #include "shapes.hpp"
 #include <gtest/gtest.h>
-#include <kernel/packed_joints.hpp>
+#include <kernel/joint_law.hpp>
 
 using namespace timber;
 using namespace timber::shapes;
@@ -102,28 +102,22 @@ struct Joint {
 	JointStiffness stiffness { 1000, 1000 };
 	JointStrength strength;
 	Vec3 normal = Vec3::UnitZ(), velocity = Vec3::Zero();
-	std::vector<Vec3> anchorsA, anchorsB, stretches, forces;
-	std::vector<int> broken;
+	std::vector<SpringLanes> groups;
+	JointSprings springs;
 
 	/// stretched: stretches of the springs [m]
 	Joint(const JointStrength& s, const std::vector<Vec3>& stretched)
 	        : strength(s)
-	        , anchorsA(stretched.size(), Vec3(Vec3::Zero()))
-	        , anchorsB(stretched)
-	        , stretches(stretched.size())
-	        , forces(stretched.size())
-	        , broken(stretched.size(), 0)
+	        , groups(groupsOf(stretched.size()))
+	        , springs { groups.data(), stretched.size() }
 	{
+		springs.assign(std::vector<Vec3>(stretched.size(), Vec3::Zero()), stretched,
+		        std::vector<int>(stretched.size(), 0));
 	}
-	JointSprings springs() { return { anchorsA, anchorsB, broken, stretches, forces }; }
 	JointForce total()
 	{
-		std::vector<SpringLanes> groups(groupsOf(broken.size()));
-		packSprings(springs(), groups.data());
 		JointForce total;
-		springForces(stiffness, { axes, axes, Vec3::Zero() }, normal, groups.data(),
-		        groups.data() + groups.size(), total);
-		unpackSprings(groups.data(), stretches, forces);
+		springForces(stiffness, { axes, axes, Vec3::Zero() }, normal, springs, total);
 		return total;
 	}
 	/// Pulls the springs; returns the breaks, if the joint is overloaded.
@@ -131,7 +125,7 @@ struct Joint {
 	{
 		const Vec3 none = Vec3::Zero();
 		if (!isOverloaded(strength, total())) return {};
-		return springBreaks(stiffness, strength, { axes, axes, none }, normal, springs(),
+		return springBreaks(stiffness, strength, { axes, axes, none }, normal, springs,
 		        { { none, none, none }, { none, velocity, none }, h });
 	}
 	/// Indices of the springs that break.
@@ -181,12 +175,13 @@ TEST(BreakRule, BrokenSpringsNeitherLoadNorBreakAgain)
 {
 	for (const bool perJoint : { false, true }) {
 		Joint joint({ perJoint ? 115. : 65., perJoint }, uneven);
-		joint.broken[2] = 1;
+		joint.springs.breakSpring(2);
 		EXPECT_EQ(joint.breaking(), Indices {}) << perJoint; // the others carry 110 N, one of them 60 N
 		joint.strength.strength = 20;
 		EXPECT_EQ(joint.breaking(), perJoint ? (Indices { 0, 1, 3 }) : (Indices { 0, 1 }));
-		EXPECT_EQ(joint.forces[2], Vec3(Vec3::Zero()));
-		joint.broken.assign(4, 1);
+		EXPECT_EQ(joint.springs.force(2), Vec3(Vec3::Zero()));
+		for (size_t i = 0; i < 4; ++i)
+			joint.springs.breakSpring(i);
 		EXPECT_EQ(joint.breaking(), Indices {});
 	}
 }
@@ -220,30 +215,4 @@ TEST(BreakRule, EnergyIsThatOfTheMiddleOfTheLastStep)
 	// First order in the step: K (h v / 2)^2 / 2 remains
 	EXPECT_NEAR(joint.breaks()[0].energy, 500 * earlier * earlier, 500 * 1e-6 * (1 + rounding));
 	EXPECT_NEAR(joint.breaks()[0].energy, 5 - 0.1 * 1000 * 2 * joint.h / 2, rounding * 5);
-}
-
-/// Joints of several numbers of springs keep their own: groups of one do not reach into those of the next.
-TEST(PackedJoints, KeepStretchesAndForcesOfEachSpring)
-{
-	Random random(54);
-	PackedJoints packed;
-	std::vector<std::vector<Vec3>> stretches, forces;
-	for (const size_t count : { 1, 4, 0, 5, 3 }) {
-		std::vector<Vec3> anchors(count), stretched(count), pulling(count);
-		for (size_t i = 0; i < count; ++i)
-			for (Vec3* v : { &anchors[i], &stretched[i], &pulling[i] })
-				*v = randomVector(random, 1);
-		const std::vector<int> broken(count, count == 3);
-		packed.add({ 0, 1, false, false, { 1, 1 }, { 1, false }, Vec3::UnitZ() },
-		        { anchors, anchors, broken, stretched, pulling });
-		EXPECT_EQ(packed.joints.back().isActive, count != 0 && count != 3);
-		stretches.push_back(stretched);
-		forces.push_back(pulling);
-	}
-	for (size_t k = 0; k < stretches.size(); ++k) {
-		std::vector<Vec3> stretched(stretches[k].size()), pulling(stretches[k].size());
-		unpackSprings(packed.first(packed.joints[k]), stretched, pulling);
-		EXPECT_EQ(stretched, stretches[k]);
-		EXPECT_EQ(pulling, forces[k]);
-	}
 }

@@ -420,6 +420,7 @@ double stepAlongLine(Assembly& a, double h)
 {
 	const Joint& j = a.joints[0];
 	const SpringAxis line = lineOf(a);
+	BrittleSprings law(j.stiffness, { std::numeric_limits<double>::infinity(), false }, j.normal);
 	ContactSolver solver;
 	solver.begin(a.bodies, h, 50);
 	solver.addJoint<1>(0, 1);
@@ -428,13 +429,10 @@ double stepAlongLine(Assembly& a, double h)
 		const Vec3 from = j.normal.dot(a.history[0].half[0]) * j.normal;
 		const SpringStep<1> step { 0, from, Vec3::Zero(), Vec3::Zero(), std::sqrt(line.response) * j.normal,
 			Vec3::Zero() };
-		const JointStrength none { std::numeric_limits<double>::infinity(), false };
-		addSprings(c,
-		        SpringSteps<1>(std::make_unique<BrittleSprings>(j.stiffness, none, j.normal), { step },
-		                a.history[0].account, h));
+		addSprings(c, SpringSteps<1>(law, { step }, a.history[0].account, h));
 	}
 	solver.solve(1e-14);
-	return solver.joint<1>(0).dissipated;
+	return solver.joint<1>(0).dissipated + solver.joint<1>(0).springs.dissipated;
 }
 }
 

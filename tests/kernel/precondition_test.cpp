@@ -78,16 +78,15 @@ TEST(Preconditions, OfTheSolver)
 TEST(Preconditions, OfJointsAndStability)
 {
 	const Mat3 axes = Mat3::Identity();
-	std::vector<Vec3> anchors(2, none), short1(1, none), stretches(2), forces(2);
-	std::vector<int> broken(2, 0);
-	std::vector<SpringLanes> groups(groupsOf(broken.size()));
-	packSprings({ anchors, anchors, broken, stretches, forces }, groups.data());
-	EXPECT_REFUSED(packSprings({ anchors, short1, broken, stretches, forces }, groups.data()));
+	std::vector<Vec3> anchors(2, none), short1(1, none);
+	std::vector<SpringLanes> groups(groupsOf(2));
+	const JointSprings springs { groups.data(), 2 };
+	springs.assign(anchors, anchors, { 0, 0 });
+	EXPECT_REFUSED(springs.assign(anchors, short1, { 0, 0 }));
 	JointForce total;
-	SpringLanes *const first = groups.data(), *const end = first + groups.size();
-	springForces({ 1, 1 }, { axes, axes, none }, Vec3::UnitX(), first, end, total);
-	EXPECT_REFUSED(springForces({ 0, 1 }, { axes, axes, none }, Vec3::UnitX(), first, end, total));
-	EXPECT_REFUSED(springForces({ 1, -1 }, { axes, axes, none }, Vec3::UnitX(), first, end, total));
+	springForces({ 1, 1 }, { axes, axes, none }, Vec3::UnitX(), springs, total);
+	EXPECT_REFUSED(springForces({ 0, 1 }, { axes, axes, none }, Vec3::UnitX(), springs, total));
+	EXPECT_REFUSED(springForces({ 1, -1 }, { axes, axes, none }, Vec3::UnitX(), springs, total));
 	const auto softeningFrom = [](double stretch) {
 		return SlipLaw(1, 0.5, { { 1, 1 }, { stretch, 1 }, { 3, 0 } });
 	};

@@ -286,8 +286,7 @@ TEST(LanesOfAJoint, PullIsTheSumOverTheSprings)
 			const Mat3 axesA = randomRotation(random).toRotationMatrix(),
 			           axesB = randomRotation(random).toRotationMatrix();
 			const Vec3 apart = randomVector(random, 1), normal = randomDirection(random);
-			std::vector<Vec3> anchorsA(count), anchorsB(count), stretches(count, Vec3::Ones()),
-			        forces(count, Vec3::Ones());
+			std::vector<Vec3> anchorsA(count), anchorsB(count);
 			std::vector<int> broken(count);
 			for (size_t i = 0; i < count; ++i) {
 				anchorsA[i] = randomVector(random, 1);
@@ -296,17 +295,18 @@ TEST(LanesOfAJoint, PullIsTheSumOverTheSprings)
 				broken[i] = i % 3 == 1;
 			}
 			std::vector<SpringLanes> groups(groupsOf(count));
-			packSprings({ anchorsA, anchorsB, broken, stretches, forces }, groups.data());
+			const JointSprings springs { groups.data(), count };
+			springs.assign(anchorsA, anchorsB, broken);
+			for (size_t i = 0; i < count; ++i)
+				springs.set(i, Vec3::Ones(), Vec3::Ones());
 			JointForce total;
-			springForces(k, { axesA, axesB, apart }, normal, groups.data(), groups.data() + groups.size(),
-			        total);
-			unpackSprings(groups.data(), stretches, forces);
+			springForces(k, { axesA, axesB, apart }, normal, springs, total);
 			JointForce wanted;
 			for (size_t i = 0; i < count; ++i) {
 				const Vec3 armB = axesB * anchorsB[i], stretch = apart + armB - axesA * anchorsA[i];
 				const SpringForce<double> f = springForce<double>(k, stretch, axesA * normal);
-				EXPECT_EQ(stretches[i], broken[i] ? Vec3(Vec3::Zero()) : stretch);
-				EXPECT_EQ(forces[i], broken[i] ? Vec3(Vec3::Zero()) : f.force);
+				EXPECT_EQ(springs.stretch(i), broken[i] ? Vec3(Vec3::Zero()) : stretch);
+				EXPECT_EQ(springs.force(i), broken[i] ? Vec3(Vec3::Zero()) : f.force);
 				if (broken[i]) continue;
 				wanted.force += f.force;
 				wanted.torqueA += (apart + armB).cross(f.force);

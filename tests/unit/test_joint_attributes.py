@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Attributes of a joint: the engine computes with packed copies. What is read is always of the last step, and what is
-set counts in the next one.
-"""
+"""Attributes of a joint in its engine's set: values read are of the last step, values set count in the next one."""
 import os
 import tempfile
 

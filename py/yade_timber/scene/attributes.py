@@ -148,6 +148,7 @@ def _restored(target):
 
 def _initialiser(construct):
     """Constructor whose errors name the keyword."""
+
     def __init__(self, *args, **attributes):
         with _named_errors(type(self), attributes):
             construct(self, *args, **attributes)
