@@ -111,6 +111,14 @@ namespace {
 		return power;
 	}
 
+	/// Parts along the axis of springs that act along one; zero: in all directions.
+	template <int columns>
+	Eigen::Matrix<Real, 3, columns> acting(const Vector3r& axis, const Eigen::Matrix<Real, 3, columns>& x)
+	{
+		if (axis.isZero(0)) return x;
+		return axis * (axis.transpose() * x);
+	}
+
 	/// G of spring_step.hpp. end: of the spring in B, in the frame of A [m]
 	template <int n> timber::ModalVectors<n> ratesOf(const ImplicitJoint& implicit, const Vector3r& end)
 	{
@@ -124,18 +132,15 @@ namespace {
 		const timber::JointSprings& springs = implicit.springs;
 		const State &s1 = *bodyAt(scene, joint.bodyA)->state, &s2 = *bodyAt(scene, joint.bodyB)->state;
 		const Quaternionr toA = s1.ori.conjugate();
-		const auto acting = [&](const Vector3r& stretch) -> Vector3r {
-			if constexpr (n == 1) return joint.normal.dot(stretch) * joint.normal;
-			else return stretch;
-		};
+		const Vector3r axis = joint.axis();
 		std::vector<timber::SpringStep<n>> steps;
 		for (size_t k = 0; k < springs.count; ++k) {
 			if (!springs.isIntact(k)) continue;
 			const Vector3r end = toA * (s2.pos + s2.ori * springs.anchorB(k) - s1.pos),
-			               stretch = acting(end - springs.anchorA(k)), force = toA * springs.force(k);
-			timber::SpringStep<n> step { k, stretch, stretch, Vector3r::Zero(), ratesOf<n>(implicit, end),
-				force };
-			if (joint.isStiff()) step.from = acting(joint.half[k]);
+			               stretch = acting<1>(axis, end - springs.anchorA(k)), force = toA * springs.force(k);
+			timber::SpringStep<n> step { k, stretch, stretch, Vector3r::Zero(),
+				acting<n>(axis, ratesOf<n>(implicit, end)), force };
+			if (joint.isStiff()) step.from = acting<1>(axis, joint.half[k]);
 			else step.applied = force;
 			steps.push_back(std::move(step));
 		}
@@ -163,17 +168,17 @@ namespace {
 		}
 	}
 
-	/// Forces of the springs about the bodies' centres. armA, armB: from these to the joint's centre
+	/// Forces of the springs about the centres of bodies in these states.
 	template <int n>
-	timber::JointForce totalForce(const timber::ModalConstraint<n>& c, const timber::JointSprings& springs)
+	timber::JointForce totalForce(const timber::ModalConstraint<n>& c, const timber::JointSprings& springs,
+	        const State& a, const State& b)
 	{
 		timber::JointForce total;
 		for (const timber::SpringStep<n>& s : c.springs.springs) {
-			const Vector3r force = c.axesA * s.force, // end: from the centre of A
-			        end = n == 1 ? c.armA : Vector3r(c.axesA * (s.placed + springs.anchorA(s.spring)));
+			const Vector3r force = c.axesA * s.force, armB = b.ori * springs.anchorB(s.spring);
 			total.force += force;
-			total.torqueA += end.cross(force);
-			total.torqueB -= (end - c.armA + c.armB).cross(force);
+			total.torqueA += (b.pos + armB - a.pos).cross(force);
+			total.torqueB -= armB.cross(force);
 			total.sum += s.force.norm();
 			total.largestSquared = math::max(total.largestSquared, Real(s.force.squaredNorm()));
 		}
@@ -288,9 +293,10 @@ namespace {
 		const Vector3r force = P.linear / scene.dt, torque = P.angular / scene.dt;
 		result.dashpots += c.dissipated;
 		if (implicit.isStiff) {
-			const Quaternionr& ori = bodyAt(scene, implicit.joint->bodyA)->state->ori;
-			storeSprings(c.springs, ori, implicit, result);
-			implicit.joint->total = totalForce(c, implicit.springs);
+			const State &s1 = *bodyAt(scene, implicit.joint->bodyA)->state,
+			            &s2 = *bodyAt(scene, implicit.joint->bodyB)->state;
+			storeSprings(c.springs, s1.ori, implicit, result);
+			implicit.joint->total = totalForce(c, implicit.springs, s1, s2);
 			storeEnergies(c, *implicit.joint, result);
 		}
 		return { force, -c.armA.cross(force) - torque, c.armB.cross(force) + torque };

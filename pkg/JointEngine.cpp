@@ -192,6 +192,7 @@ void JointEngine::breakSprings(size_t index)
 {
 	timber::JointEntry& joint = set->joints[index];
 	if (joint.yields()) {
+		if (!joint.total.isSpent) return;
 		for (const timber::SpringBreak& event : timber::spentSprings(joint.springLaw(), joint.stiffness,
 		             bodies[joint.bodyA].axes, joint.normal, set->springs(joint)))
 			breakSpring(index, event);

@@ -32,8 +32,8 @@ void ContactSolver::begin(std::vector<SolverBody>& sceneBodies, double step, int
 	maxSweeps = sweepLimit;
 	pairs.clear();
 	pointCount = 0;
-	sixModes.clear();
-	oneMode.clear();
+	joints<6>().clear();
+	joints<1>().clear();
 	weighted.resize(sceneBodies.size());
 	freeBodies.clear();
 	++solveCount;

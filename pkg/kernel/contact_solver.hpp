@@ -83,6 +83,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
+#include <tuple>
 #include <vector>
 
 namespace timber {
@@ -171,31 +172,22 @@ private:
 	/// Of all points in the order of the visits: the sweeps read them one after the other. It does not shrink.
 	std::vector<PointStep> steps;
 	size_t pointCount = 0; ///< of the island
-	std::vector<ModalConstraint<6>> sixModes;
-	std::vector<ModalConstraint<1>> oneMode;
+	std::tuple<std::vector<ModalConstraint<6>>, std::vector<ModalConstraint<1>>> allJoints;
 	std::vector<int> freeBodies; ///< of the island, by index
 	std::vector<long> activeUntil; ///< of each body: last sweep in which its pairs are visited
 	long solveCount = 0; ///< since construction
 	long sweepCount = 0; ///< since construction: bodies of islands solved before are inactive
 	double twiceKinetic = 0; ///< kinetic energy of the island's bodies after all other forces, times two [J]
 
-	template <int n> auto& joints()
+	template <int n> auto& joints() { return std::get<std::vector<ModalConstraint<n>>>(allJoints); }
+	template <int n> const auto& joints() const { return std::get<std::vector<ModalConstraint<n>>>(allJoints); }
+	/// Calls visit(joint) for all joints of six modes, then of one. kinds: allJoints
+	template <class Kinds, class Visit> static void visitEach(Kinds& kinds, Visit visit)
 	{
-		if constexpr (n == 6) return sixModes;
-		else return oneMode;
+		std::apply([&](auto&... kind) { (std::for_each(kind.begin(), kind.end(), visit), ...); }, kinds);
 	}
-	template <int n> const auto& joints() const { return const_cast<ContactSolver&>(*this).joints<n>(); }
-	/// Calls visit(joint) for all joints of six modes, then of one.
-	template <class Visit> void visitJoints(Visit visit)
-	{
-		std::for_each(sixModes.begin(), sixModes.end(), visit);
-		std::for_each(oneMode.begin(), oneMode.end(), visit);
-	}
-	template <class Visit> void visitJoints(Visit visit) const
-	{
-		std::for_each(sixModes.begin(), sixModes.end(), visit);
-		std::for_each(oneMode.begin(), oneMode.end(), visit);
-	}
+	template <class Visit> void visitJoints(Visit visit) { visitEach(allJoints, visit); }
+	template <class Visit> void visitJoints(Visit visit) const { visitEach(allJoints, visit); }
 	void startBody(int k);
 	void finishBodies();
 	void warmStart(const SolverPair& pair);

@@ -120,6 +120,7 @@ JointForce yieldingForces(
 		total.sum += force.norm();
 		total.energy += state.energy;
 		total.dissipated += state.dissipated;
+		total.isSpent = total.isSpent || state.breaks;
 	}
 	if (intact > 0) total.tangent = tangents / intact;
 	return total;
@@ -199,7 +200,7 @@ void BrittleSprings::weaken(SpringState& state, double share) const
 	state.breaks = true;
 }
 
-SpringState BrittleSprings::trial(size_t, const Vec3& to) const
+SpringState BrittleSprings::trial(size_t, const Vec3& to, bool) const
 {
 	SpringState state = elastic(to);
 	const double size = state.force.norm();

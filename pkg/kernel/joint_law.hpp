@@ -108,6 +108,7 @@ struct JointForce {
 	double largestSquared = 0; ///< square of the largest spring force [N2]
 	double sum = 0; ///< of the magnitudes of the spring forces [N]
 	bool isKnown = false; ///< a law has computed it
+	bool isSpent = false; ///< a spring that yields has no strength left
 
 	/// Power of the forces on the bodies. [W]
 	double power(const BodyKinematics& a, const BodyKinematics& b) const
@@ -176,8 +177,8 @@ public:
 	BrittleSprings() = default;
 	/// normal: in the frame of A
 	BrittleSprings(const JointStiffness&, const JointStrength&, const Vec3& normal);
-	SpringState trial(size_t spring, const Vec3& to) const override;
-	SpringState commit(size_t spring, const Vec3& to) override { return trial(spring, to); }
+	SpringState trial(size_t spring, const Vec3& to, bool keepsForce) const override;
+	SpringState commit(size_t spring, const Vec3& to) override { return trial(spring, to, false); }
 	bool isLinear() const override { return true; }
 	/// With P_max of the joint, the forces beyond it fall by the same number: the closest ones in terms of energy.
 	double limit(std::vector<SpringState>& states, std::vector<Vec3>& shared) const override;

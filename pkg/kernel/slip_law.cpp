@@ -190,7 +190,7 @@ SpringState SlipSprings::projected(const SlipForce& force, const Mat3& tangent) 
 	return state;
 }
 
-SpringState SlipSprings::trial(size_t spring, const Vec3& to) const
+SpringState SlipSprings::trial(size_t spring, const Vec3& to, bool keepsForce) const
 {
 	const SlipHistory before { plastic[spring], largest[spring] };
 	const Vec3 stretch = onAxis(to);

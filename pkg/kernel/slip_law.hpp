@@ -125,7 +125,7 @@ public:
 
 	/// axis: unit vector in the frame of A, on which the stretches are projected; zero: they act in all directions.
 	SlipSprings(const SlipLaw&, const Vec3& axis, size_t count = 0);
-	SpringState trial(size_t spring, const Vec3& to) const override;
+	SpringState trial(size_t spring, const Vec3& to, bool keepsForce) const override;
 	SpringState commit(size_t spring, const Vec3& to) override;
 	bool isSpent(size_t spring) const override { return largest[spring] >= law.ultimateStretch(); }
 	double steepestFall() const override { return law.steepestFall(); }

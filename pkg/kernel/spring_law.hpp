@@ -26,7 +26,7 @@ public:
 	/// State at the end of the straight path from the stretch of the history to another one [m].
 	/// The history stays. With keepsForce the force must not fall along a path that goes on: a law that softens
 	/// keeps its force here, and loses it in commit().
-	virtual SpringState trial(size_t spring, const Vec3& to) const = 0;
+	virtual SpringState trial(size_t spring, const Vec3& to, bool keepsForce) const = 0;
 	/// The same with all of the law; the history goes on to the other stretch.
 	virtual SpringState commit(size_t spring, const Vec3& to) = 0;
 	/// Whether no strength is left. Springs that reach their strength without a history break in other ways.
@@ -35,7 +35,6 @@ public:
 	virtual double steepestFall() const { return 0; }
 	/// Whether forces are linear in the stretches up to the strength.
 	virtual bool isLinear() const { return false; }
-	bool keepsForce = true; ///< the step does not resolve the fall of the force
 	/// Applies a strength that the springs share to trial states. shared: out, unit vectors of the forces that it
 	/// limits, of each spring. Returns kappa: the tangent of all forces is that of the states minus kappa s s^T
 	/// with the vector s of all entries of `shared` [N/m]; 0 without such a limit, or below it.

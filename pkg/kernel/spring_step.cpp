@@ -59,18 +59,18 @@ SpringSteps<n>::SpringSteps(SpringLaw& l, std::vector<SpringStep<n>> steps, doub
 	double rates = 0;
 	for (SpringStep<n>& s : springs) {
 		assert(isFinite(s.from) && isFinite(s.placed) && isFinite(s.applied) && isFinite(s.rates));
-		s.start = law->trial(s.spring, s.from);
+		s.start = law->trial(s.spring, s.from, keepsForce);
 		applied -= h * s.rates.transpose() * s.applied;
 		rates += s.rates.squaredNorm();
 	}
-	law->keepsForce = h * h * law->steepestFall() * rates >= 1;
+	keepsForce = h * h * law->steepestFall() * rates >= 1;
 }
 
 template <int n> double SpringSteps<n>::tangent() const
 {
 	double sum = 0;
 	for (const SpringStep<n>& s : springs)
-		sum += law->trial(s.spring, s.placed).share;
+		sum += law->trial(s.spring, s.placed, keepsForce).share;
 	return sum / double(springs.size());
 }
 
@@ -87,7 +87,7 @@ template <int n> typename SpringSteps<n>::Leaving SpringSteps<n>::leave(double h
 	double atHalfStep = 0, work = 0; // of explicit springs; since the placement
 	for (const SpringStep<n>& s : springs) {
 		const Vec3 half = h / 2 * (s.rates * after);
-		const SpringState next = law->trial(s.spring, s.stretch + half);
+		const SpringState next = law->trial(s.spring, s.stretch + half, keepsForce);
 		atHalfStep += next.energy + next.dissipated - next.force.dot(half);
 		work += s.force.dot(half);
 	}
@@ -108,7 +108,7 @@ template <int n> double SpringSteps<n>::tryStretches(double h, const Vec& after)
 	for (size_t i = 0; i < springs.size(); ++i) {
 		SpringStep<n>& s = springs[i];
 		s.stretch = s.placed + h / 2 * (s.rates * after);
-		states[i] = law->trial(s.spring, s.stretch);
+		states[i] = law->trial(s.spring, s.stretch, keepsForce);
 	}
 	const double kappa = law->limit(states, shared);
 	for (size_t i = 0; i < springs.size(); ++i)
@@ -131,7 +131,7 @@ template <int n> Mat3 SpringSteps<n>::tangentOf(size_t i, double kappa) const
 	// With a shared strength the slope along one spring's way depends on the other springs
 	if (kappa > 0) return states[i].tangent / 2;
 	const SpringStep<n>& s = springs[i];
-	return meanTangent(states[i], s.force, s.stretch - s.from, law->keepsForce ? 0 : -law->steepestFall());
+	return meanTangent(states[i], s.force, s.stretch - s.from, keepsForce ? 0 : -law->steepestFall());
 }
 
 /// Of r by eta'.

@@ -76,6 +76,7 @@ template <int n> class SpringSteps {
 	Vec applied = Vec::Zero(); ///< q_a
 	Mat inverseSlope; ///< of (3), of the last Newton step of linear springs: it serves until they reach the strength
 	bool hasSlope = false;
+	bool keepsForce = true; ///< the step does not resolve the fall of the force
 
 	/// r of (3), and kappa of SpringLaw::limit().
 	struct NewtonPoint {

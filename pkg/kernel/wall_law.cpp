@@ -340,7 +340,7 @@ SpringState WallSprings::along(const WallForce& force) const
 	return state;
 }
 
-SpringState WallSprings::trial(size_t spring, const Vec3& to) const
+SpringState WallSprings::trial(size_t spring, const Vec3& to, bool keepsForce) const
 {
 	const WallHistory& history = histories[spring];
 	return along(keepsForce ? law.hold(history, axis.dot(to)) : law.advance(history, axis.dot(to)));

@@ -147,7 +147,7 @@ public:
 
 	/// axis: unit vector in the frame of A
 	WallSprings(const WallLaw& law_, const Vec3& axis_);
-	SpringState trial(size_t spring, const Vec3& to) const override;
+	SpringState trial(size_t spring, const Vec3& to, bool keepsForce) const override;
 	SpringState commit(size_t spring, const Vec3& to) override;
 	bool isSpent(size_t spring) const override { return law.isSpent(histories[spring]); }
 	double steepestFall() const override { return law.steepestFall(); }

@@ -166,6 +166,29 @@ def test_yielding_springs_of_a_struck_body(dt):
     assert abs(largest / stretch - 1) < 80 * dt  # stretches of placements, the largest lies between them
 
 
+@pytest.mark.parametrize("points", [1, 2])
+@pytest.mark.parametrize("dt", [5e-4, 1e-4])
+def test_springs_along_an_axis_push_along_it_alone(points, dt):
+    """A cube that is also thrown across the axis of its yielding springs: it keeps the momentum across, turns about the
+    axis as freely, and no energy is created.
+    """
+    O.reset()
+    O.bodies.append([yt.box((0.2, 0.2, 0.2), (0, 0, 0), fixed=True), yt.box((0.1, 0.1, 0.1), (0, 0, 0.3))])
+    O.dt, O.engines = dt, yt.engines(gravity=(0, 0, 0))
+    places = [(0.03 * k, 0, 0.3) for k in ((0,) if points == 1 else (-1, 1))]
+    yt.connect(0, 1, places, (0, 0, 1), (1e6, 0), 200, slip=yt.SlipLaw(0.05, 0.08))
+    yt.set_velocity(O.bodies[1], (3, -2, 1), (0, 0, 5) if points == 1 else (0, 0, 0))
+    state = O.bodies[1].state
+    across, spin = tuple(state.vel)[:2], state.angVel[2]
+    while O.time < 0.02:
+        O.step()
+    energy = yt.energy()
+    assert energy["joint_yield"] > 0.01 * energy["imposed_velocity"]
+    assert tuple(state.vel)[:2] == pytest.approx(across, rel=1e-12)  # rounding
+    assert state.angVel[2] == pytest.approx(spin, rel=1e-9, abs=1e-9)
+    assert abs(yt.energy_residual()) < 1e-4 * energy["imposed_velocity"]
+
+
 @pytest.mark.rare
 def test_yielding_joints_of_a_house_converge():
     """Strong shaking of tiled_house: visits of a joint that yields and of its neighbours do not alternate for ever."""
