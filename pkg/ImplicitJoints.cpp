@@ -137,7 +137,8 @@ namespace {
 		for (size_t k = 0; k < springs.count; ++k) {
 			if (!springs.isIntact(k)) continue;
 			const Vector3r end = toA * (s2.pos + s2.ori * springs.anchorB(k) - s1.pos),
-			               stretch = acting<1>(axis, end - springs.anchorA(k)), force = toA * springs.force(k);
+			               stretch = acting<1>(axis, end - springs.anchorA(k)),
+			               force = toA * springs.force(k);
 			timber::SpringStep<n> step { k, stretch, stretch, Vector3r::Zero(),
 				acting<n>(axis, ratesOf<n>(implicit, end)), force };
 			if (joint.isStiff()) step.from = acting<1>(axis, joint.half[k]);

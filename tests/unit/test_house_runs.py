@@ -146,6 +146,17 @@ def sampled(model):
     return Observer(model)
 
 
+@pytest.mark.parametrize("structure", ["main", "entrance"])
+def test_a_level_without_bodies_is_refused(structure):
+    model = scenario.build(scenario.Scenario("levels", "A"))
+    observed = Observer(model)
+    observed.observe(0.0)
+    for mark in next(level for level in observed.survey.levels if level.structure == structure).marks:
+        O.bodies.erase(mark)
+    with pytest.raises(RuntimeError, match=f"{structure}: all bodies at the top of storey 1 are erased"):
+        observed.observe(0.0)
+
+
 def structures(model):
     """(fallen, leaning) structures of the scene as it is now."""
     observed = sampled(model)

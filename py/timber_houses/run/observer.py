@@ -235,10 +235,7 @@ class Observer:
         """Note the events up to a time [s], that of the scene's state. last: whether it is the final state. Raises
         RuntimeError."""
         self.log.drop_after(time)
-        for storey, level in enumerate(self.main_levels, 1):  # whose drifts are reported
-            if all(O.bodies[mark] is None for mark in level.marks):
-                raise RuntimeError(f"{level.structure}: all bodies at the top of storey {storey} are erased: it has no"
-                                   " drift")
+        self._require_levels()
         self._rewind(time)
         self.read_samples()
         first = next(iter(find_engine(yw.JointEngine).breaks), None)
@@ -258,6 +255,15 @@ class Observer:
             structures = self.survey.by_structure(state, self.judge.structures)
             if any(facts.verdict != UNDAMAGED for facts in structures.values()):
                 self.log.add(time, OwnWeight("snow" in self.survey.elements.kind, structures))
+
+    def _require_levels(self):
+        """Raise RuntimeError if a level has no body any more."""
+        levels = self.survey.levels
+        for level in levels:
+            if all(O.bodies[mark] is None for mark in level.marks):
+                storey = [each for each in levels if each.structure == level.structure].index(level) + 1
+                raise RuntimeError(f"{level.structure}: all bodies at the top of storey {storey} are erased: it has no"
+                                   " drift")
 
     def _note_falls(self):
         main = self.judge.main
