@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Figures without pyplot: page, text from data, heading, PNG and PDF files."""
+import io
 import re
-import struct
-import zlib
 from textwrap import fill
 from unicodedata import east_asian_width
 
@@ -14,6 +13,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 from matplotlib.text import Text
 from matplotlib.transforms import Bbox, BboxTransformFrom, BboxTransformTo, ScaledTranslation, TransformedBbox
+from PIL import Image
 
 from ..base.atomic_write import written_whole
 from ..text.english import LONGEST_TEXT, cut_line
@@ -37,8 +37,8 @@ POINT_LETTERS = 140.0
 TITLE_PAD = 6
 """Between a diagram and its title. [pt]"""
 REPLACEMENT = "\ufffd"
-PNG_LEVEL = 2
-"""Of zlib."""
+PNG_LEVEL = 1
+"""Of zlib: 0.7 times the time of its default, files 4 to 18 % larger."""
 METADATA = {"CreationDate": None}
 """Of PDF files: nothing that differs between two runs of the same program."""
 
@@ -177,24 +177,10 @@ def image_of(figure):
 
 
 def png(picture, dpi):
-    """PNG file of a picture (rows, columns, 3) uint8. Differences to the row above (filter 2) take a third of the time
-    of Pillow, which tries five filters on each row. dpi: resolution [1/inch]
-    """
-    rows, columns, colors = picture.shape
-    lines = np.empty((rows, 1 + colors * columns), np.uint8)
-    lines[:, 0] = 2
-    change = lines[:, 1:].reshape(picture.shape)
-    for color in range(colors):
-        values = picture[..., color]
-        change[0, :, color] = values[0]
-        np.subtract(values[1:], values[:-1], out=change[1:, :, color])
-    per_metre = round(dpi / 0.0254)
-    parts = {b"IHDR": struct.pack(">IIBBBBB", columns, rows, 8, 2, 0, 0, 0),
-             b"pHYs": struct.pack(">IIB", per_metre, per_metre, 1),
-             b"IDAT": zlib.compress(lines, PNG_LEVEL), b"IEND": b""}
-    return b"\x89PNG\r\n\x1a\n" + b"".join(
-        struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
-        for name, data in parts.items())
+    """PNG file of a picture (rows, columns, 3) uint8. dpi: resolution [1/inch]"""
+    content = io.BytesIO()
+    Image.fromarray(picture).save(content, "PNG", compress_level=PNG_LEVEL, dpi=(dpi, dpi))
+    return content.getvalue()
 
 
 def stem_and_endings(path):
