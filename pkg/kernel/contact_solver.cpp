@@ -40,11 +40,9 @@ void ContactSolver::begin(std::vector<SolverBody>& sceneBodies, double step, int
 	twiceKinetic = 0;
 }
 
-/// Starts a body of the island, once a step.
+/// Starts a body of the island.
 void ContactSolver::startBody(int k)
 {
-	assert(k >= 0 && size_t(k) < weighted.size());
-	if (weighted[k].step == solveCount) return;
 	const SolverBody& body = (*bodies)[k];
 	weighted[k] = {};
 	weighted[k].root = InverseRootMass(body);
@@ -61,8 +59,8 @@ size_t ContactSolver::addPair(int bodyA, int bodyB, size_t count)
 	pairs.push_back({ bodyA, bodyB, pointCount, count, 0 });
 	pointCount += count;
 	if (pointCount > steps.size()) steps.resize(pointCount);
-	startBody(bodyA);
-	startBody(bodyB);
+	useBody(bodyA);
+	useBody(bodyB);
 	return pairs.size() - 1;
 }
 
@@ -72,8 +70,8 @@ template <int n> size_t ContactSolver::addJoint(int bodyA, int bodyB)
 	ModalConstraint<n>& joint = joints<n>().emplace_back();
 	joint.bodyA = bodyA;
 	joint.bodyB = bodyB;
-	startBody(bodyA);
-	startBody(bodyB);
+	useBody(bodyA);
+	useBody(bodyB);
 	return joints<n>().size() - 1;
 }
 template size_t ContactSolver::addJoint<1>(int, int);

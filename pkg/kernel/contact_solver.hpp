@@ -189,6 +189,12 @@ private:
 	template <class Visit> void visitJoints(Visit visit) { visitEach(allJoints, visit); }
 	template <class Visit> void visitJoints(Visit visit) const { visitEach(allJoints, visit); }
 	void startBody(int k);
+	/// Starts a body once a step.
+	void useBody(int k)
+	{
+		assert(k >= 0 && size_t(k) < weighted.size());
+		if (weighted[k].step != solveCount) startBody(k);
+	}
 	void finishBodies();
 	void warmStart(const SolverPair& pair);
 	template <int n> void solveJoint(ModalConstraint<n>& joint, double threshold, double share = 1);

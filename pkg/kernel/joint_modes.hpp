@@ -75,7 +75,7 @@ struct JointState {
 	JointStiffness stiffness { 0, 0 }; ///< of each
 	double pairInverseMass = 0; ///< [1/kg]
 	double inverseInertia = 0; ///< traces of both bodies [1/(kg m2)]
-	Quat relative = Quat::Identity(); ///< orientation of B in the axes of A
+	Mat3 relative = Mat3::Identity(); ///< rotation matrix from the frame of B to that of A
 
 	/// Whether springs and bodies are the same but for their orientations.
 	bool hasSame(const JointState& now) const
@@ -87,8 +87,8 @@ struct JointState {
 	/// Whether modes of this state serve for another one. largestTurn: of the bodies against each other [rad]
 	bool fits(const JointState& now, double largestTurn) const
 	{
-		// Cosine of half the angle
-		return hasSame(now) && std::abs(relative.dot(now.relative)) > 1 - largestTurn * largestTurn / 8;
+		const double cosine = (relative.cwiseProduct(now.relative).sum() - 1) / 2;
+		return hasSame(now) && cosine > 1 - largestTurn * largestTurn / 2;
 	}
 };
 
