@@ -231,9 +231,9 @@ ImplicitJointResult findImplicitJoints(
 		timber::JointEntry& joint = set.joints[k];
 		bool isStiff = false;
 		if ((joint.isDamped() || alsoStiff) && holds(joint, bodies)) {
-			ImplicitJoint one = withModes(set, k, scene.dt, bodies);
+			ImplicitJoint& one = implicit.emplace_back(withModes(set, k, scene.dt, bodies));
 			one.isStiff = isStiff = alsoStiff && (joint.isStiff() || one.isStiff || isFast(one));
-			if (isStiff || joint.isDamped()) implicit.push_back(one);
+			if (!isStiff && !joint.isDamped()) implicit.pop_back();
 		}
 		if (isStiff && !joint.isStiff()) { // its forces act in this step already
 			engine->elastic -= joint.total.energy;

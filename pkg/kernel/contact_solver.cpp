@@ -67,7 +67,7 @@ size_t ContactSolver::addPair(int bodyA, int bodyB, size_t count)
 template <int n> size_t ContactSolver::addJoint(int bodyA, int bodyB)
 {
 	assert(bodyA >= 0 && bodyB >= 0 && bodyA != bodyB);
-	ModalConstraint<n>& joint = joints<n>().emplace_back();
+	ModalConstraint<n>& joint = joints<n>().add();
 	joint.bodyA = bodyA;
 	joint.bodyB = bodyB;
 	useBody(bodyA);

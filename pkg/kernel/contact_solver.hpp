@@ -107,6 +107,33 @@ struct Convergence {
 	        = 0; ///< then the largest change of a pair or joint in its last visit: twice its kinetic energy [J]
 };
 
+/// Joints of n modes. The list keeps its memory when it is cleared.
+template <int n> class JointList {
+	std::vector<ModalConstraint<n>> all;
+	size_t count = 0;
+
+public:
+	void clear() { count = 0; }
+	/// A joint without springs; its other numbers are not set.
+	ModalConstraint<n>& add()
+	{
+		if (count == all.size()) all.emplace_back();
+		all[count].springs.springs.clear();
+		return all[count++];
+	}
+	size_t size() const { return count; }
+	ModalConstraint<n>& operator[](size_t k)
+	{
+		assert(k < count);
+		return all[k];
+	}
+	const ModalConstraint<n>& operator[](size_t k) const { return const_cast<JointList&>(*this)[k]; }
+	ModalConstraint<n>* begin() { return all.data(); }
+	ModalConstraint<n>* end() { return all.data() + count; }
+	const ModalConstraint<n>* begin() const { return all.data(); }
+	const ModalConstraint<n>* end() const { return all.data() + count; }
+};
+
 class ContactSolver {
 public:
 	/// Phase 1: starts a step of h [s] of these bodies. sweepLimit: upper bound of the sweeps over the points; 0:
@@ -172,15 +199,15 @@ private:
 	/// Of all points in the order of the visits: the sweeps read them one after the other. It does not shrink.
 	std::vector<PointStep> steps;
 	size_t pointCount = 0; ///< of the island
-	std::tuple<std::vector<ModalConstraint<6>>, std::vector<ModalConstraint<1>>> allJoints;
+	std::tuple<JointList<6>, JointList<1>> allJoints;
 	std::vector<int> freeBodies; ///< of the island, by index
 	std::vector<long> activeUntil; ///< of each body: last sweep in which its pairs are visited
 	long solveCount = 0; ///< since construction
 	long sweepCount = 0; ///< since construction: bodies of islands solved before are inactive
 	double twiceKinetic = 0; ///< kinetic energy of the island's bodies after all other forces, times two [J]
 
-	template <int n> auto& joints() { return std::get<std::vector<ModalConstraint<n>>>(allJoints); }
-	template <int n> const auto& joints() const { return std::get<std::vector<ModalConstraint<n>>>(allJoints); }
+	template <int n> auto& joints() { return std::get<JointList<n>>(allJoints); }
+	template <int n> const auto& joints() const { return std::get<JointList<n>>(allJoints); }
 	/// Calls visit(joint) for all joints of six modes, then of one. kinds: allJoints
 	template <class Kinds, class Visit> static void visitEach(Kinds& kinds, Visit visit)
 	{

@@ -67,11 +67,15 @@ namespace {
 				onB.col(k) = armB.cross(linear.col(k)) + angular.col(k);
 			}
 		}
-		explicit ModalAxes(const SpringAxis& line)
-		        : linear(line.axis / std::sqrt(line.response))
+		explicit ModalAxes(const SpringAxis& line, double scale)
+		        : linear(line.axis * scale)
 		        , angular(Vec3::Zero())
-		        , onA(line.armA.cross(linear))
-		        , onB(line.armB.cross(linear))
+		        , onA(line.onA * scale)
+		        , onB(line.onB * scale)
+		{
+		}
+		explicit ModalAxes(const SpringAxis& line)
+		        : ModalAxes(line, 1 / std::sqrt(line.response))
 		{
 		}
 		Modal<n> velocity(const Vec3& vA, const Vec3& wA, const Vec3& vB, const Vec3& wB) const
@@ -147,10 +151,11 @@ SpringAxis::SpringAxis(
         : axis(line)
         , armA(toEndA)
         , armB(toEndB)
+        , onA(armA.cross(axis))
+        , onB(armB.cross(axis))
         , stiffness(k)
 {
 	assert(isUnit(axis) && stiffness > 0);
-	const Vec3 onA = armA.cross(axis), onB = armB.cross(axis);
 	response = a.inverseMass + b.inverseMass + onA.dot(a.inverseInertia * onA) + onB.dot(b.inverseInertia * onB);
 }
 

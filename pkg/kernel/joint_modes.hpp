@@ -145,6 +145,7 @@ struct SpringAxis {
 	Vec3 axis = Vec3::Zero(); ///< unit, fixed in A, world
 	Vec3 armA = Vec3::Zero(),
 	     armB = Vec3::Zero(); ///< from the centres of mass to the end in B, where forces act [m]
+	Vec3 onA = Vec3::Zero(), onB = Vec3::Zero(); ///< arms x axis [m]
 	double stiffness = 0; ///< [N/m]
 	double response = 0; ///< of the relative velocity along the axis to an impulse along it [1/kg]
 
