@@ -59,6 +59,7 @@
 #include "solver_body.hpp"
 #include "spring_step.hpp"
 #include <algorithm>
+#include <type_traits>
 
 namespace timber {
 
@@ -166,7 +167,8 @@ template <int n> struct ModalConstraint {
 	int bodyA, bodyB;
 	PairVector rows[n]; ///< of J R (contact_solver.hpp)
 	Modal<n> velocity; ///< Z^T u_0
-	ModalVectors<n> linear, angular; ///< Z, in world axes
+	/// Z: in the axes of A, that of JointModes; n = 1: its part of translation, in world axes
+	std::conditional_t<n == 1, Vec3, const Mat6*> basis;
 	Mat3 axesA; ///< rotation matrix from the frame of A to the world
 	Vec3 armA, armB; ///< from the centres of mass to the joint's centre [m]
 	Modal<n> before; ///< eta
@@ -188,7 +190,7 @@ template <int n> struct ModalConstraint {
 	static constexpr size_t count = 1; ///< contact points for which a joint counts in the convergence of the sweeps
 };
 
-/// Constraint for a step of h [s], with zero impulse.
+/// Constraint for a step of h [s], with zero impulse. modes: they must live as long.
 void prepareModes(ModalConstraint<6>& constraint, const SolverBodies& bodies, const JointModes& modes,
         const Mat3& axesA, const JointDamping& damping, double h);
 void prepareModes(ModalConstraint<1>& constraint, const SolverBodies& bodies, const SpringAxis& axis, const Mat3& axesA,
@@ -226,7 +228,11 @@ struct JointImpulse {
 };
 template <int n> JointImpulse jointImpulse(const ModalConstraint<n>& c)
 {
-	return { c.linear * c.impulse, c.angular * c.impulse };
+	if constexpr (n == 1) return { c.basis * c.impulse[0], Vec3::Zero() };
+	else {
+		const Vec6 P = *c.basis * c.impulse;
+		return { c.axesA * P.template head<3>(), c.axesA * P.template tail<3>() };
+	}
 }
 
 } // namespace timber
