@@ -92,6 +92,7 @@ namespace timber {
 struct SolverPair {
 	int bodyA, bodyB;
 	size_t first, count; ///< of its points in the island
+	double inverseMass; ///< of the equivalent mass [1/kg]
 	/// Of the impulses in the last visit, over the equivalent mass: changes matter by their effect on light members
 	/// [J]
 	double squaredChange;
@@ -232,10 +233,6 @@ private:
 	template <class Connection> void setChange(const Connection& c, const PairVector& change)
 	{
 		change.store(weighted[c.bodyA].change, weighted[c.bodyB].change);
-	}
-	double inverseMass(const SolverPair& pair) const
-	{
-		return pairInverseMass((*bodies)[pair.bodyA], (*bodies)[pair.bodyB]);
 	}
 	void solvePair(SolverPair& pair, bool forwards);
 	double sumOfChanges() const;
