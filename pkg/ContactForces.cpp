@@ -16,15 +16,16 @@ namespace {
 		body.position = s.pos;
 		body.velocity = body.newVelocity = s.vel;
 		body.spin = body.newSpin = s.angVel;
+		body.axes = s.ori.toRotationMatrix();
 		body.inverseMass = 0;
 		body.inverseInertia.setZero();
 		if (!isFree(s)) return;
-		const Matrix3r axes = s.ori.toRotationMatrix(), scaled = axes * s.inertia.cwiseInverse().asDiagonal();
+		const Matrix3r scaled = body.axes * s.inertia.cwiseInverse().asDiagonal();
 		body.inverseMass = 1 / s.mass;
 		// element by element: for the matrix product Eigen would make a function call (slower)
 		for (int i = 0; i < 3; ++i)
 			for (int j = 0; j < 3; ++j)
-				body.inverseInertia(i, j) = scaled.row(i).dot(axes.row(j));
+				body.inverseInertia(i, j) = scaled.row(i).dot(body.axes.row(j));
 	}
 
 	/// Work of a body that moves in a step of h [s], against forces on it. [J]
@@ -193,7 +194,7 @@ ContactForces::IslandResult ContactForces::solveIsland(timber::Islands::Island i
 		if (k < pairCount)
 			timber::prepareContacts(solver, k, pair(k).phys->properties(), pair(k).geom->contactPoints,
 			        pair(k).phys->records);
-		else prepareJoint(solver, joint(k), *scene);
+		else prepareJoint(solver, joint(k), bodies);
 	});
 	result.convergence = solver.solve(tolerance);
 	for (int k = 0; k < pairCount; ++k) {
@@ -204,7 +205,7 @@ ContactForces::IslandResult ContactForces::solveIsland(timber::Islands::Island i
 		addForce(island[k], f);
 	}
 	for (int k = pairCount; k < count; ++k)
-		addForce(island[k], storeJoint(solver, *scene, joint(k), result.joints));
+		addForce(island[k], storeJoint(solver, joint(k), bodies, result.joints));
 	return result;
 }
 

@@ -5,86 +5,81 @@
 namespace yade {
 
 namespace {
-	Matrix3r axesOf(const Scene& scene, Body::id_t id) { return bodyAt(scene, id)->state->ori.toRotationMatrix(); }
+	using Bodies = std::vector<timber::SolverBody>;
 
 	/// Modes of a joint's bodies, of which one is free, computed again where those of the last step no longer serve.
-	void updateModes(timber::JointEntry& joint, const timber::JointSprings& springs, const Scene& scene,
-	        const std::vector<timber::SolverBody>& bodies)
+	void updateModes(timber::JointEntry& joint, const timber::JointSprings& springs, Real h, const Bodies& bodies)
 	{
 		const timber::SolverBody &a = bodies[joint.bodyA], &b = bodies[joint.bodyB];
 		timber::JointState now { joint.intact, joint.stiffness, timber::pairInverseMass(a, b),
 			a.inverseInertia.trace() + b.inverseInertia.trace() };
-		const bool isExplicit = !joint.isDamped() && !joint.isStiff() && !joint.modes.mayBeStiff(scene.dt);
+		const bool isExplicit = !joint.isDamped() && !joint.isStiff() && !joint.modes.mayBeStiff(h);
 		if (isExplicit && joint.modes.state.hasSame(now)) return;
-		const Quaternionr &qA = bodyAt(scene, joint.bodyA)->state->ori,
-		                  &qB = bodyAt(scene, joint.bodyB)->state->ori;
-		now.relative = qA.conjugate() * qB;
-		if (joint.modes.state.fits(now, joint.modes.largestTurn(scene.dt, joint.dampingAt(1)))) return;
+		now.relative = a.axes.transpose() * b.axes;
+		if (joint.modes.state.fits(now, joint.modes.largestTurn(h, joint.dampingAt(1)))) return;
 		timber::SpringGroup unbroken { {}, joint.stiffness, joint.normal };
 		for (size_t k = 0; k < springs.count; ++k)
 			if (springs.isIntact(k)) unbroken.anchors.push_back(springs.anchorA(k));
-		joint.modes = timber::jointModes(a, b, qA.toRotationMatrix(), unbroken, now);
+		joint.modes = timber::jointModes(a, b, a.axes, unbroken, now);
 	}
 
 	/// Whether a joint holds two bodies, of which one is free.
-	bool holds(const timber::JointEntry& joint, const Scene& scene, const std::vector<timber::SolverBody>& bodies)
+	bool holds(const timber::JointEntry& joint, const Bodies& bodies)
 	{
-		return !joint.isBroken() && joint.bodyA != joint.bodyB && bodyAt(scene, joint.bodyA)
-		        && bodyAt(scene, joint.bodyB)
+		const auto isBody = [&](int id) { return id >= 0 && size_t(id) < bodies.size(); };
+		return !joint.isBroken() && joint.bodyA != joint.bodyB && isBody(joint.bodyA) && isBody(joint.bodyB)
 		        && timber::pairInverseMass(bodies[joint.bodyA], bodies[joint.bodyB]) > 0;
 	}
 
-	timber::SpringAxis springAxis(const timber::JointEntry& joint, const timber::JointSprings& springs,
-	        const Scene& scene, const std::vector<timber::SolverBody>& bodies)
+	timber::SpringAxis springAxis(
+	        const timber::JointEntry& joint, const timber::JointSprings& springs, const Bodies& bodies)
 	{
-		const State &s1 = *bodyAt(scene, joint.bodyA)->state, &s2 = *bodyAt(scene, joint.bodyB)->state;
+		const timber::SolverBody &a = bodies[joint.bodyA], &b = bodies[joint.bodyB];
 		size_t spring = 0;
 		while (!springs.isIntact(spring))
 			++spring;
-		const Vector3r armB = s2.ori * springs.anchorB(spring);
-		return { bodies[joint.bodyA], bodies[joint.bodyB], s1.ori * joint.normal, s2.pos + armB - s1.pos, armB,
-			joint.stiffness.normal };
+		const Vector3r armB = b.axes * springs.anchorB(spring);
+		return { a, b, a.axes * joint.normal, b.position + armB - a.position, armB, joint.stiffness.normal };
 	}
 
 	/// A joint that may be in the solver, with its modes. isStiff: whether the step does not resolve its springs.
-	ImplicitJoint withModes(
-	        timber::JointSet& set, size_t index, const Scene& scene, const std::vector<timber::SolverBody>& bodies)
+	ImplicitJoint withModes(timber::JointSet& set, size_t index, Real h, const Bodies& bodies)
 	{
 		timber::JointEntry& joint = set.joints[index];
 		ImplicitJoint result { &joint, set.springs(joint), index, false, joint.total.tangent, joint.isAxial(),
 			{} };
 		if (result.isAxial) {
-			result.axis = springAxis(joint, result.springs, scene, bodies);
-			result.isStiff = scene.dt * result.axis.frequency() > timber::stiffPhase;
+			result.axis = springAxis(joint, result.springs, bodies);
+			result.isStiff = h * result.axis.frequency() > timber::stiffPhase;
 		} else {
-			updateModes(joint, result.springs, scene, bodies);
-			result.isStiff = joint.modes.isStiff(scene.dt);
+			updateModes(joint, result.springs, h, bodies);
+			result.isStiff = joint.modes.isStiff(h);
 		}
 		return result;
 	}
 
 	/// Energy by which a yielding joint errs in this step if its springs cross a corner of their law. [J]
-	Real errorOfYielding(const timber::JointEntry& joint, const timber::JointSprings& springs, const Scene& scene,
-	        const std::vector<timber::SolverBody>& bodies)
+	Real errorOfYielding(const ImplicitJoint& implicit, Real h, const Bodies& bodies)
 	{
-		const Quaternionr &qA = bodyAt(scene, joint.bodyA)->state->ori,
-		                  &qB = bodyAt(scene, joint.bodyB)->state->ori;
+		const timber::JointEntry& joint = *implicit.joint;
+		const timber::JointSprings& springs = implicit.springs;
 		const timber::SolverBody &a = bodies[joint.bodyA], &b = bodies[joint.bodyB];
-		const Real limit = timber::yieldTravel * joint.springStrength();
+		const Real limit = timber::yieldTravel * joint.springStrength(), k = joint.stiffness.normal;
+		const bool actsAlong = joint.stiffness.shear == 0;
+		const Vector3r line = actsAlong ? Vector3r(a.axes * joint.normal) : Vector3r::Zero();
 		Real error = 0;
-		for (size_t k = 0; k < springs.count; ++k) {
-			if (!springs.isIntact(k)) continue;
-			const Real way = scene.dt
-			        * timber::relativeVelocity<double>(qA * springs.anchorA(k), qB * springs.anchorB(k),
-			                a.newVelocity, a.newSpin, b.newVelocity, b.newSpin)
-			                  .norm();
-			if (way * joint.stiffness.normal > limit) error += joint.stiffness.normal * way * way / 8;
+		for (size_t i = 0; i < springs.count; ++i) {
+			if (!springs.isIntact(i)) continue;
+			const Vector3r velocity = timber::relativeVelocity<double>(a.axes * springs.anchorA(i),
+			        b.axes * springs.anchorB(i), a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
+			const Real way = h * (actsAlong ? math::abs(line.dot(velocity)) : velocity.norm());
+			if (way * k > limit) error += k * way * way / 8;
 		}
 		return error;
 	}
 
 	/// Kinetic energy of the bodies, and what the joints have stored and dissipated. [J]
-	Real energyOf(const JointEngine& joints, const std::vector<timber::SolverBody>& bodies)
+	Real energyOf(const JointEngine& joints, const Bodies& bodies)
 	{
 		Real energy = joints.elastic + joints.yielded + joints.released;
 		for (const timber::SolverBody& b : bodies)
@@ -100,14 +95,15 @@ namespace {
 	}
 
 	/// Power of the bodies on the unbroken springs. [W]
-	Real stretchingPower(const timber::JointSprings& springs, const State& a, const State& b)
+	Real stretchingPower(
+	        const timber::JointSprings& springs, const timber::SolverBody& a, const timber::SolverBody& b)
 	{
 		Real power = 0;
 		for (size_t k = 0; k < springs.count; ++k)
 			if (springs.isIntact(k))
 				power += springs.force(k).dot(
-				        timber::relativeVelocity<double>(a.ori * springs.anchorA(k),
-				                b.ori * springs.anchorB(k), a.vel, a.angVel, b.vel, b.angVel));
+				        timber::relativeVelocity<double>(a.axes * springs.anchorA(k),
+				                b.axes * springs.anchorB(k), a.velocity, a.spin, b.velocity, b.spin));
 		return power;
 	}
 
@@ -126,17 +122,17 @@ namespace {
 		else return implicit.joint->modes.rates(end);
 	}
 
-	template <int n> timber::SpringSteps<n> springSteps(const ImplicitJoint& implicit, const Scene& scene)
+	template <int n> timber::SpringSteps<n> springSteps(const ImplicitJoint& implicit, Real h, const Bodies& bodies)
 	{
 		timber::JointEntry& joint = *implicit.joint;
 		const timber::JointSprings& springs = implicit.springs;
-		const State &s1 = *bodyAt(scene, joint.bodyA)->state, &s2 = *bodyAt(scene, joint.bodyB)->state;
-		const Quaternionr toA = s1.ori.conjugate();
+		const timber::SolverBody &a = bodies[joint.bodyA], &b = bodies[joint.bodyB];
+		const Matrix3r toA = a.axes.transpose();
 		const Vector3r axis = joint.axis();
 		std::vector<timber::SpringStep<n>> steps;
 		for (size_t k = 0; k < springs.count; ++k) {
 			if (!springs.isIntact(k)) continue;
-			const Vector3r end = toA * (s2.pos + s2.ori * springs.anchorB(k) - s1.pos),
+			const Vector3r end = toA * (b.position + b.axes * springs.anchorB(k) - a.position),
 			               stretch = acting<1>(axis, end - springs.anchorA(k)),
 			               force = toA * springs.force(k);
 			timber::SpringStep<n> step { k, stretch, stretch, Vector3r::Zero(),
@@ -145,23 +141,22 @@ namespace {
 			else step.applied = force;
 			steps.push_back(std::move(step));
 		}
-		timber::SpringSteps<n> result(joint.springLaw(), std::move(steps), joint.account, scene.dt);
+		timber::SpringSteps<n> result(joint.springLaw(), std::move(steps), joint.account, h);
 		// The bodies' velocities are those of half a step before the placement
-		if (!joint.isStiff())
-			result.account = result.startEnergy() - scene.dt / 2 * stretchingPower(springs, s1, s2);
+		if (!joint.isStiff()) result.account = result.startEnergy() - h / 2 * stretchingPower(springs, a, b);
 		return result;
 	}
 
 	/// Stretches and forces of a stiff joint after the step, and its broken springs.
 	template <int n>
-	void storeSprings(const timber::SpringSteps<n>& steps, const Quaternionr& ori, const ImplicitJoint& implicit,
+	void storeSprings(const timber::SpringSteps<n>& steps, const Matrix3r& axes, const ImplicitJoint& implicit,
 	        ImplicitJointResult& result)
 	{
 		timber::JointEntry& joint = *implicit.joint;
 		joint.half.resize(implicit.springs.count, Vector3r::Zero());
 		for (const timber::SpringStep<n>& s : steps.springs) {
 			joint.half[s.spring] = s.stretch;
-			implicit.springs.set(s.spring, ori * s.placed, ori * s.force);
+			implicit.springs.set(s.spring, axes * s.placed, axes * s.force);
 			if (!s.breaks) continue;
 			const auto cause = timber::breakCause(
 			        timber::springForce<double>(joint.stiffness, s.stretch, joint.normal));
@@ -172,13 +167,13 @@ namespace {
 	/// Forces of the springs about the centres of bodies in these states.
 	template <int n>
 	timber::JointForce totalForce(const timber::ModalConstraint<n>& c, const timber::JointSprings& springs,
-	        const State& a, const State& b)
+	        const timber::SolverBody& a, const timber::SolverBody& b)
 	{
 		timber::JointForce total;
 		for (const timber::SpringStep<n>& s : c.springs.springs) {
-			const Vector3r force = c.axesA * s.force, armB = b.ori * springs.anchorB(s.spring);
+			const Vector3r force = c.axesA * s.force, armB = b.axes * springs.anchorB(s.spring);
 			total.force += force;
-			total.torqueA += (b.pos + armB - a.pos).cross(force);
+			total.torqueA += (b.position + armB - a.position).cross(force);
 			total.torqueB -= armB.cross(force);
 			total.sum += s.force.norm();
 			total.largestSquared = math::max(total.largestSquared, Real(s.force.squaredNorm()));
@@ -218,8 +213,8 @@ void ImplicitJointResult::add(const ImplicitJointResult& other)
 	breaks.insert(breaks.end(), other.breaks.begin(), other.breaks.end());
 }
 
-ImplicitJointResult findImplicitJoints(const Scene& scene, const std::vector<timber::SolverBody>& bodies,
-        bool alsoStiff, std::vector<ImplicitJoint>& implicit)
+ImplicitJointResult findImplicitJoints(
+        const Scene& scene, const Bodies& bodies, bool alsoStiff, std::vector<ImplicitJoint>& implicit)
 {
 	ImplicitJointResult lost;
 	implicit.clear();
@@ -227,18 +222,18 @@ ImplicitJointResult findImplicitJoints(const Scene& scene, const std::vector<tim
 	if (!engine) return lost;
 	Real energy = -1; // of the scene, once a joint needs it
 	timber::JointSet& set = engine->jointSet();
-	const auto isFast = [&](const timber::JointEntry& joint) {
-		const Real error = joint.yields() ? errorOfYielding(joint, set.springs(joint), scene, bodies) : 0;
+	const auto isFast = [&](const ImplicitJoint& one) {
+		const Real error = one.joint->yields() ? errorOfYielding(one, scene.dt, bodies) : 0;
 		if (error > 0 && energy < 0) energy = energyOf(*engine, bodies);
 		return error > 0 && error > timber::yieldError * energy;
 	};
 	for (size_t k = 0; k < set.joints.size(); ++k) {
 		timber::JointEntry& joint = set.joints[k];
 		bool isStiff = false;
-		if ((joint.isDamped() || alsoStiff) && holds(joint, scene, bodies)) {
-			ImplicitJoint one = withModes(set, k, scene, bodies);
-			one.isStiff = isStiff = alsoStiff && (joint.isStiff() || one.isStiff || isFast(joint));
-			if (isStiff || joint.isDamped()) implicit.push_back(one);
+		if ((joint.isDamped() || alsoStiff) && holds(joint, bodies)) {
+			ImplicitJoint& one = implicit.emplace_back(withModes(set, k, scene.dt, bodies));
+			one.isStiff = isStiff = alsoStiff && (joint.isStiff() || one.isStiff || isFast(one));
+			if (!isStiff && !joint.isDamped()) implicit.pop_back();
 		}
 		if (isStiff && !joint.isStiff()) { // its forces act in this step already
 			engine->elastic -= joint.total.energy;
@@ -249,18 +244,19 @@ ImplicitJointResult findImplicitJoints(const Scene& scene, const std::vector<tim
 	return lost;
 }
 
-Real dashpotPower(const Scene& scene, const std::vector<timber::SolverBody>& bodies)
+Real dashpotPower(const Scene& scene, const Bodies& bodies)
 {
 	const JointEngine* engine = findEngine<JointEngine>(scene);
 	Real power = 0;
 	for (size_t k = 0; engine && k < engine->jointSet().joints.size(); ++k) {
 		const timber::JointEntry& joint = engine->jointSet().joints[k];
-		if (!joint.isDamped() || !holds(joint, scene, bodies)) continue;
-		const ImplicitJoint one = withModes(engine->jointSet(), k, scene, bodies);
+		const bool areThere = bodyAt(scene, joint.bodyA) && bodyAt(scene, joint.bodyB);
+		if (!joint.isDamped() || !areThere || !holds(joint, bodies)) continue;
+		const ImplicitJoint one = withModes(engine->jointSet(), k, scene.dt, bodies);
 		const timber::SolverBody &a = bodies[joint.bodyA], &b = bodies[joint.bodyB];
 		const timber::JointDamping damping = joint.dampingAt(one.tangent);
 		power += one.isAxial ? timber::dashpotPower(a, b, one.axis, damping)
-		                     : timber::dashpotPower(a, b, joint.modes, axesOf(scene, joint.bodyA), damping);
+		                     : timber::dashpotPower(a, b, joint.modes, a.axes, damping);
 	}
 	return power;
 }
@@ -275,46 +271,45 @@ namespace {
 	/// modes: of n
 	template <int n, class Modes>
 	void prepare(
-	        timber::ContactSolver& solver, const ImplicitJoint& implicit, const Modes& modes, const Scene& scene)
+	        timber::ContactSolver& solver, const ImplicitJoint& implicit, const Modes& modes, const Bodies& bodies)
 	{
 		const timber::JointEntry& joint = *implicit.joint;
 		timber::SpringSteps<n> springs;
-		if (implicit.isStiff) springs = springSteps<n>(implicit, scene);
+		if (implicit.isStiff) springs = springSteps<n>(implicit, solver.stepLength(), bodies);
 		const Real tangent = implicit.isStiff && joint.isDamped() ? springs.tangent() : implicit.tangent;
 		timber::ModalConstraint<n>& c = solver.prepareJoint<n>(
-		        implicit.place, modes, axesOf(scene, joint.bodyA), joint.dampingAt(tangent));
+		        implicit.place, modes, bodies[joint.bodyA].axes, joint.dampingAt(tangent));
 		if (implicit.isStiff) timber::addSprings(c, std::move(springs));
 	}
 
 	template <int n>
-	timber::PairForce store(const timber::ModalConstraint<n>& c, const Scene& scene, const ImplicitJoint& implicit,
-	        ImplicitJointResult& result)
+	timber::PairForce store(const timber::ModalConstraint<n>& c, const ImplicitJoint& implicit,
+	        const Bodies& bodies, ImplicitJointResult& result)
 	{
 		const timber::JointImpulse P = timber::jointImpulse(c);
-		const Vector3r force = P.linear / scene.dt, torque = P.angular / scene.dt;
+		const Vector3r force = P.linear / c.h, torque = P.angular / c.h;
 		result.dashpots += c.dissipated;
 		if (implicit.isStiff) {
-			const State &s1 = *bodyAt(scene, implicit.joint->bodyA)->state,
-			            &s2 = *bodyAt(scene, implicit.joint->bodyB)->state;
-			storeSprings(c.springs, s1.ori, implicit, result);
-			implicit.joint->total = totalForce(c, implicit.springs, s1, s2);
+			const timber::SolverBody &a = bodies[implicit.joint->bodyA], &b = bodies[implicit.joint->bodyB];
+			storeSprings(c.springs, a.axes, implicit, result);
+			implicit.joint->total = totalForce(c, implicit.springs, a, b);
 			storeEnergies(c, *implicit.joint, result);
 		}
 		return { force, -c.armA.cross(force) - torque, c.armB.cross(force) + torque };
 	}
 }
 
-void prepareJoint(timber::ContactSolver& solver, const ImplicitJoint& implicit, const Scene& scene)
+void prepareJoint(timber::ContactSolver& solver, const ImplicitJoint& implicit, const Bodies& bodies)
 {
-	if (implicit.isAxial) prepare<1>(solver, implicit, implicit.axis, scene);
-	else prepare<6>(solver, implicit, implicit.joint->modes, scene);
+	if (implicit.isAxial) prepare<1>(solver, implicit, implicit.axis, bodies);
+	else prepare<6>(solver, implicit, implicit.joint->modes, bodies);
 }
 
-timber::PairForce storeJoint(const timber::ContactSolver& solver, const Scene& scene, const ImplicitJoint& implicit,
+timber::PairForce storeJoint(const timber::ContactSolver& solver, const ImplicitJoint& implicit, const Bodies& bodies,
         ImplicitJointResult& result)
 {
-	return implicit.isAxial ? store(solver.joint<1>(implicit.place), scene, implicit, result)
-	                        : store(solver.joint<6>(implicit.place), scene, implicit, result);
+	return implicit.isAxial ? store(solver.joint<1>(implicit.place), implicit, bodies, result)
+	                        : store(solver.joint<6>(implicit.place), implicit, bodies, result);
 }
 
 } // namespace yade

@@ -46,13 +46,13 @@ ImplicitJointResult findImplicitJoints(const Scene&, const std::vector<timber::S
 void addJoint(timber::ContactSolver&, ImplicitJoint&);
 
 /// Constraint of a joint.
-void prepareJoint(timber::ContactSolver&, const ImplicitJoint&, const Scene&);
+void prepareJoint(timber::ContactSolver&, const ImplicitJoint&, const std::vector<timber::SolverBody>& bodies);
 
 /// Power that the dashpots of all joints take from bodies at these velocities, as in the last step. bodies: by id [W]
 Real dashpotPower(const Scene&, const std::vector<timber::SolverBody>& bodies);
 
 /// Force of a joint. result: added to.
-timber::PairForce storeJoint(
-        const timber::ContactSolver&, const Scene&, const ImplicitJoint&, ImplicitJointResult& result);
+timber::PairForce storeJoint(const timber::ContactSolver&, const ImplicitJoint&,
+        const std::vector<timber::SolverBody>& bodies, ImplicitJointResult& result);
 
 } // namespace yade

@@ -97,6 +97,8 @@ void JointEngine::collectBodies()
 		if (!b) continue;
 		bodies[id].axes = b->state->ori.toRotationMatrix();
 		bodies[id].position = b->state->pos;
+		bodies[id].velocity = b->state->vel;
+		bodies[id].spin = b->state->angVel;
 	}
 }
 
@@ -147,20 +149,19 @@ void JointEngine::computeForce(size_t index)
 		joint.total = {};
 		return;
 	}
-	const timber::JointForce before = joint.total;
+	const bool wasKnown = joint.total.isKnown;
+	if (wasKnown) joint.created = halfWork(joint) - joint.total.energy;
 	if (joint.yields())
 		joint.total = yieldingForces(joint.springLaw(), placement(joint), joint.axis(), set->springs(joint));
 	else springForces(joint.stiffness, placement(joint), joint.normal, set->springs(joint), joint.total);
-	if (before.isKnown) joint.created = createdSince(before, joint);
+	// Beyond the work of the forces before and after the last motion, where the law is not linear
+	if (wasKnown) joint.created += joint.total.energy + joint.total.dissipated + halfWork(joint);
 }
 
-/// Energy beyond the work of the forces before and after the last motion, where the law is not linear. [J]
-Real JointEngine::createdSince(const timber::JointForce& before, const timber::JointEntry& joint) const
+/// Work of the springs' forces on the bodies in half a step of the last motion. [J]
+Real JointEngine::halfWork(const timber::JointEntry& joint) const
 {
-	const timber::JointForce& now = joint.total;
-	const timber::BodyKinematics a = kinematics(*bodyAt(*scene, joint.bodyA)->state),
-	                             b = kinematics(*bodyAt(*scene, joint.bodyB)->state);
-	return now.energy + now.dissipated - before.energy + scene->dt / 2 * (before.power(a, b) + now.power(a, b));
+	return scene->dt / 2 * joint.total.power(motion(joint.bodyA), motion(joint.bodyB));
 }
 
 void JointEngine::computeForces()
@@ -199,10 +200,9 @@ void JointEngine::breakSprings(size_t index)
 		return;
 	}
 	if (!timber::isOverloaded(joint.strength, joint.total)) return;
-	const State &s1 = *bodyAt(*scene, joint.bodyA)->state, &s2 = *bodyAt(*scene, joint.bodyB)->state;
-	const timber::JointMotion motion { kinematics(s1), kinematics(s2), scene->dt };
+	const timber::JointMotion moving { motion(joint.bodyA), motion(joint.bodyB), scene->dt };
 	for (const timber::SpringBreak& event : timber::springBreaks(
-	             joint.stiffness, joint.strength, placement(joint), joint.normal, set->springs(joint), motion))
+	             joint.stiffness, joint.strength, placement(joint), joint.normal, set->springs(joint), moving))
 		breakSpring(index, event);
 	computeForce(index);
 }

@@ -26,6 +26,7 @@ class JointEngine : public GlobalEngine {
 	struct Placement {
 		Matrix3r axes; ///< rotation matrix, body to world
 		Vector3r position; ///< of the centre [m]
+		Vector3r velocity, spin; ///< [m/s, rad/s]
 		bool exists = false;
 		/// The body itself; no owner, which would have to release bodies of Python without its lock.
 		boost::weak_ptr<Body> body;
@@ -46,8 +47,12 @@ class JointEngine : public GlobalEngine {
 		const Placement &a = bodies[joint.bodyA], &b = bodies[joint.bodyB];
 		return { a.axes, b.axes, b.position - a.position };
 	}
+	timber::BodyKinematics motion(Body::id_t id) const
+	{
+		return { bodies[id].position, bodies[id].velocity, bodies[id].spin };
+	}
 	void computeForce(size_t joint);
-	Real createdSince(const timber::JointForce& before, const timber::JointEntry&) const;
+	Real halfWork(const timber::JointEntry&) const;
 	void computeForces();
 	void breakSprings(size_t joint);
 	void breakAndSum();

@@ -40,11 +40,9 @@ void ContactSolver::begin(std::vector<SolverBody>& sceneBodies, double step, int
 	twiceKinetic = 0;
 }
 
-/// Starts a body of the island, once a step.
+/// Starts a body of the island.
 void ContactSolver::startBody(int k)
 {
-	assert(k >= 0 && size_t(k) < weighted.size());
-	if (weighted[k].step == solveCount) return;
 	const SolverBody& body = (*bodies)[k];
 	weighted[k] = {};
 	weighted[k].root = InverseRootMass(body);
@@ -58,22 +56,22 @@ void ContactSolver::startBody(int k)
 size_t ContactSolver::addPair(int bodyA, int bodyB, size_t count)
 {
 	assert(bodyA >= 0 && bodyB >= 0 && bodyA != bodyB);
-	pairs.push_back({ bodyA, bodyB, pointCount, count, 0 });
+	pairs.push_back({ bodyA, bodyB, pointCount, count, pairInverseMass((*bodies)[bodyA], (*bodies)[bodyB]), 0 });
 	pointCount += count;
 	if (pointCount > steps.size()) steps.resize(pointCount);
-	startBody(bodyA);
-	startBody(bodyB);
+	useBody(bodyA);
+	useBody(bodyB);
 	return pairs.size() - 1;
 }
 
 template <int n> size_t ContactSolver::addJoint(int bodyA, int bodyB)
 {
 	assert(bodyA >= 0 && bodyB >= 0 && bodyA != bodyB);
-	ModalConstraint<n>& joint = joints<n>().emplace_back();
+	ModalConstraint<n>& joint = joints<n>().add();
 	joint.bodyA = bodyA;
 	joint.bodyB = bodyB;
-	startBody(bodyA);
-	startBody(bodyB);
+	useBody(bodyA);
+	useBody(bodyB);
 	return joints<n>().size() - 1;
 }
 template size_t ContactSolver::addJoint<1>(int, int);
@@ -125,7 +123,7 @@ void ContactSolver::solvePair(SolverPair& pair, bool forwards)
 		PointStep& step = points[forwards ? k : pair.count - 1 - k];
 		if (!step.idle) squaredChange += visitPoint(step, velocity);
 	}
-	pair.squaredChange = squaredChange * inverseMass(pair);
+	pair.squaredChange = squaredChange * pair.inverseMass;
 	setChange(pair, velocity);
 }
 
@@ -160,7 +158,7 @@ double ContactSolver::squaredThreshold(double tolerance, double firstChanges) co
 			squares += c.impulse[0] * c.impulse[0] + c.impulse[1] * c.impulse[1]
 			        + c.impulse[2] * c.impulse[2];
 		}
-		size += squares * inverseMass(pair);
+		size += squares * pair.inverseMass;
 		count += pair.count;
 	}
 	visitJoints([&](const auto& joint) {
@@ -183,7 +181,7 @@ template <class Connection> bool ContactSolver::activateNeighbours(const Connect
 {
 	if (c.squaredChange <= threshold * double(c.count)) return false;
 	for (const int body : { c.bodyA, c.bodyB })
-		if ((*bodies)[body].inverseMass > 0) activeUntil[body] = sweepCount + 1;
+		if (weighted[body].root.linear > 0) activeUntil[body] = sweepCount + 1;
 	return true;
 }
 
@@ -284,7 +282,7 @@ template <class Visit> void ContactSolver::visitUnknowns(Visit visit)
 			for (int i = 0; i < 3; ++i) {
 				PointStep& c = stepsOf(pair)[k];
 				double p = c.impulse[i];
-				visit(p, inverseMass(pair));
+				visit(p, pair.inverseMass);
 				c.impulse[i] = p;
 			}
 	visitJoints([&](auto& joint) {

@@ -92,6 +92,7 @@ namespace timber {
 struct SolverPair {
 	int bodyA, bodyB;
 	size_t first, count; ///< of its points in the island
+	double inverseMass; ///< of the equivalent mass [1/kg]
 	/// Of the impulses in the last visit, over the equivalent mass: changes matter by their effect on light members
 	/// [J]
 	double squaredChange;
@@ -105,6 +106,33 @@ struct Convergence {
 	bool converged = true;
 	double change
 	        = 0; ///< then the largest change of a pair or joint in its last visit: twice its kinetic energy [J]
+};
+
+/// Joints of n modes. The list keeps its memory when it is cleared.
+template <int n> class JointList {
+	std::vector<ModalConstraint<n>> all;
+	size_t count = 0;
+
+public:
+	void clear() { count = 0; }
+	/// A joint without springs; its other numbers are not set.
+	ModalConstraint<n>& add()
+	{
+		if (count == all.size()) all.emplace_back();
+		all[count].springs.springs.clear();
+		return all[count++];
+	}
+	size_t size() const { return count; }
+	ModalConstraint<n>& operator[](size_t k)
+	{
+		assert(k < count);
+		return all[k];
+	}
+	const ModalConstraint<n>& operator[](size_t k) const { return const_cast<JointList&>(*this)[k]; }
+	ModalConstraint<n>* begin() { return all.data(); }
+	ModalConstraint<n>* end() { return all.data() + count; }
+	const ModalConstraint<n>* begin() const { return all.data(); }
+	const ModalConstraint<n>* end() const { return all.data() + count; }
 };
 
 class ContactSolver {
@@ -172,15 +200,15 @@ private:
 	/// Of all points in the order of the visits: the sweeps read them one after the other. It does not shrink.
 	std::vector<PointStep> steps;
 	size_t pointCount = 0; ///< of the island
-	std::tuple<std::vector<ModalConstraint<6>>, std::vector<ModalConstraint<1>>> allJoints;
+	std::tuple<JointList<6>, JointList<1>> allJoints;
 	std::vector<int> freeBodies; ///< of the island, by index
 	std::vector<long> activeUntil; ///< of each body: last sweep in which its pairs are visited
 	long solveCount = 0; ///< since construction
 	long sweepCount = 0; ///< since construction: bodies of islands solved before are inactive
 	double twiceKinetic = 0; ///< kinetic energy of the island's bodies after all other forces, times two [J]
 
-	template <int n> auto& joints() { return std::get<std::vector<ModalConstraint<n>>>(allJoints); }
-	template <int n> const auto& joints() const { return std::get<std::vector<ModalConstraint<n>>>(allJoints); }
+	template <int n> auto& joints() { return std::get<JointList<n>>(allJoints); }
+	template <int n> const auto& joints() const { return std::get<JointList<n>>(allJoints); }
 	/// Calls visit(joint) for all joints of six modes, then of one. kinds: allJoints
 	template <class Kinds, class Visit> static void visitEach(Kinds& kinds, Visit visit)
 	{
@@ -189,6 +217,12 @@ private:
 	template <class Visit> void visitJoints(Visit visit) { visitEach(allJoints, visit); }
 	template <class Visit> void visitJoints(Visit visit) const { visitEach(allJoints, visit); }
 	void startBody(int k);
+	/// Starts a body once a step.
+	void useBody(int k)
+	{
+		assert(k >= 0 && size_t(k) < weighted.size());
+		if (weighted[k].step != solveCount) startBody(k);
+	}
 	void finishBodies();
 	void warmStart(const SolverPair& pair);
 	template <int n> void solveJoint(ModalConstraint<n>& joint, double threshold, double share = 1);
@@ -199,10 +233,6 @@ private:
 	template <class Connection> void setChange(const Connection& c, const PairVector& change)
 	{
 		change.store(weighted[c.bodyA].change, weighted[c.bodyB].change);
-	}
-	double inverseMass(const SolverPair& pair) const
-	{
-		return pairInverseMass((*bodies)[pair.bodyA], (*bodies)[pair.bodyB]);
 	}
 	void solvePair(SolverPair& pair, bool forwards);
 	double sumOfChanges() const;

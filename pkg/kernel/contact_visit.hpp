@@ -142,21 +142,40 @@ struct ShearAccount {
 	}
 };
 
-/// Tangential impulse within the limits (4) of friction and (5) of energy. p: by (2), in-out; before: impulse before
-/// the visit; u: velocity with that impulse and the new normal one [m/s].
-[[gnu::always_inline]] inline void limitShear(
-        const PointStep& c, PointStep::Quad& p, const PointStep::Quad& before, const PointStep::Quad& u)
+/// S p in the places of the tangents: their velocity change by a tangential impulse. [m/s]
+[[gnu::always_inline]] inline PointStep::Quad shearChange(const PointStep& c, const PointStep::Quad& p)
 {
-	const double limit = c.friction * p[0];
 	const PointStep::Quad& a = c.shearResponse;
-	ShearAccount limits { Vec2(c.before[1] + u[1], c.before[2] + u[2]), Mat2(), c.shearEnergy };
+	return __builtin_shufflevector(a, a, 3, 0, 1, 3) * p[1] + a * p[2];
+}
+
+/// p, whose tangential part returns more than the account, with the closest one that does not. velocity: v + b [m/s];
+/// limit: of friction [N s].
+[[gnu::noinline]] inline PointStep::Quad withinAccount(
+        const PointStep& c, PointStep::Quad p, PointStep::Quad velocity, double limit)
+{
+	const PointStep::Quad& a = c.shearResponse;
+	ShearAccount limits { Vec2(velocity[1], velocity[2]), Mat2(), c.shearEnergy };
 	limits.response << a[0], a[1], a[1], a[2];
-	limits.velocity -= limits.response * Vec2(before[1], before[2]);
-	Vec2 shear = clipped(Vec2(p[1], p[2]), limit);
-	// No impulse moves two fixed bodies. Both limits are convex and contain 0: shortening keeps (5)
-	if (limits.excess(shear) > 0 && a[0] > 0) shear = clipped(limits.closestTo(shear), limit);
+	const Vec2 shear = clipped(limits.closestTo(Vec2(p[1], p[2])), limit);
 	p[1] = shear[0];
 	p[2] = shear[1];
+	return p;
+}
+
+/// Tangential impulse within the limits (4) of friction, mu normal, and (5) of energy, in the places of the tangents. p:
+/// by (2); before: impulse before the visit; u: velocity with that impulse and the new normal one [m/s].
+[[gnu::always_inline]] inline PointStep::Quad limitedShear(
+        const PointStep& c, PointStep::Quad p, double normal, const PointStep::Quad& before, const PointStep::Quad& u)
+{
+	const double limit = c.friction * normal;
+	const PointStep::Quad velocity = c.before + u - shearChange(c, before), squares = p * p;
+	const double square = squares[1] + squares[2];
+	if (square > limit * limit) p *= limit / std::sqrt(square);
+	const PointStep::Quad work = p * (velocity + shearChange(c, p));
+	// No impulse moves two fixed bodies. Both limits are convex and contain 0: shortening keeps (5)
+	const bool returnsTooMuch = work[1] + work[2] > 2 * c.shearEnergy && c.shearResponse[0] > 0;
+	return returnsTooMuch ? withinAccount(c, p, velocity, limit) : p;
 }
 
 /// One visit. velocity: change of the pair's weighted velocities, in-out. Returns the squared change of the impulse.
@@ -164,18 +183,18 @@ struct ShearAccount {
 {
 	// (8), (2)
 	PointStep::Quad u = c.velocity + velocity.dots(c.rows), p = c.factor * c.impulse + c.bias - c.mass * u;
-	const double pn = normalImpulse(c, u[0], p[0]);
+	const double pn = normalImpulse(c, u[0], p[0]), normalChange = pn - c.impulse[0];
 	// No shear without a normal impulse
 	if (pn == 0 && c.impulse[0] == 0 && c.impulse[1] == 0 && c.impulse[2] == 0) return 0;
-	const PointStep::Quad slip = (pn - c.impulse[0]) * c.column; // caused by the change of the normal impulse
-	p -= c.mass * slip; // (4)
-	p[0] = pn;
-	limitShear(c, p, c.impulse, u + slip);
+	velocity.add(c.rows[0], normalChange); // before the tangents: the processor need not wait for them
+	const PointStep::Quad slip = normalChange * c.column; // caused by the change of the normal impulse
+	p = limitedShear(c, p - c.mass * slip, pn, c.impulse, u + slip); // (4)
 	const PointStep::Quad change = p - c.impulse, squares = change * change;
-	for (int i = 0; i < 3; ++i)
+	for (int i = 1; i < 3; ++i)
 		velocity.add(c.rows[i], change[i]);
 	c.impulse = p;
-	return squares[0] + squares[1] + squares[2];
+	c.impulse[0] = pn;
+	return normalChange * normalChange + squares[1] + squares[2];
 }
 
 } // namespace timber

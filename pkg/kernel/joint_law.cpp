@@ -98,6 +98,7 @@ JointForce yieldingForces(
         SpringLaw& law, const JointPlacement& placement, const Vec3& axis, const JointSprings& springs)
 {
 	assert((axis.isZero() || isUnit(axis)) && isFinite(placement.distance));
+	const bool isAxial = !axis.isZero(0);
 	const Vec3 worldAxis = placement.axesA * axis;
 	JointForce total;
 	total.isKnown = true;
@@ -106,9 +107,17 @@ JointForce yieldingForces(
 		if (!springs.isIntact(i)) continue;
 		const Vec3 armB = placement.axesB * springs.anchorB(i), end = placement.distance + armB;
 		Vec3 stretch = end - placement.axesA * springs.anchorA(i);
-		if (!worldAxis.isZero()) stretch = worldAxis.dot(stretch) * worldAxis;
-		const SpringState state = law.commit(i, placement.axesA.transpose() * stretch);
-		const Vec3 force = placement.axesA * state.force;
+		SpringState state;
+		Vec3 force;
+		if (isAxial) {
+			const double along = worldAxis.dot(stretch);
+			stretch = along * worldAxis;
+			state = law.commit(i, along * axis);
+			force = axis.dot(state.force) * worldAxis;
+		} else {
+			state = law.commit(i, placement.axesA.transpose() * stretch);
+			force = placement.axesA * state.force;
+		}
 		springs.set(i, stretch, force);
 		tangents += state.share;
 		++intact;
@@ -178,9 +187,9 @@ BrittleSprings::BrittleSprings(const JointStiffness& k, const JointStrength& lim
 	assert(isValid(k) && limit.strength > 0 && isUnit(normal));
 }
 
-SpringState BrittleSprings::elastic(const Vec3& stretch) const
+SpringTrial BrittleSprings::elastic(const Vec3& stretch) const
 {
-	SpringState state;
+	SpringTrial state;
 	state.force = stiffness * stretch;
 	state.tangent = stiffness;
 	state.energy = state.force.dot(stretch) / 2;
@@ -188,7 +197,7 @@ SpringState BrittleSprings::elastic(const Vec3& stretch) const
 }
 
 /// Shortens the force of an elastic state. The stretch beyond it is plastic in this step.
-void BrittleSprings::weaken(SpringState& state, double share) const
+void BrittleSprings::weaken(SpringTrial& state, double share) const
 {
 	const double work = 2 * state.energy;
 	const Vec3 pulled = stiffness * state.force;
@@ -200,23 +209,23 @@ void BrittleSprings::weaken(SpringState& state, double share) const
 	state.breaks = true;
 }
 
-SpringState BrittleSprings::trial(size_t, const Vec3& to, bool) const
+SpringTrial BrittleSprings::trial(size_t, const Vec3& to, bool) const
 {
-	SpringState state = elastic(to);
+	SpringTrial state = elastic(to);
 	const double size = state.force.norm();
 	if (!strength.perJoint && size > strength.strength) weaken(state, strength.strength / size);
 	return state;
 }
 
-double BrittleSprings::limit(std::vector<SpringState>& states, std::vector<Vec3>& shared) const
+double BrittleSprings::limit(std::vector<SpringTrial>& states, std::vector<Vec3>& shared) const
 {
 	double sum = 0;
-	for (const SpringState& s : states)
+	for (const SpringTrial& s : states)
 		sum += s.force.norm();
 	if (!strength.perJoint || sum <= strength.strength) return 0;
 	// Forces below `less` vanish, which leaves more to the others
 	std::vector<double> sizes;
-	for (const SpringState& s : states)
+	for (const SpringTrial& s : states)
 		sizes.push_back(s.force.norm());
 	std::sort(sizes.begin(), sizes.end());
 	size_t first = 0;

@@ -170,18 +170,18 @@ class BrittleSprings : public SpringLaw {
 	Mat3 stiffness = Mat3::Zero(); ///< K, in the axes of A [N/m]
 	JointStrength strength { 0, false };
 
-	SpringState elastic(const Vec3& stretch) const;
-	void weaken(SpringState& state, double share) const;
+	SpringTrial elastic(const Vec3& stretch) const;
+	void weaken(SpringTrial& state, double share) const;
 
 public:
 	BrittleSprings() = default;
 	/// normal: in the frame of A
 	BrittleSprings(const JointStiffness&, const JointStrength&, const Vec3& normal);
-	SpringState trial(size_t spring, const Vec3& to, bool keepsForce) const override;
+	SpringTrial trial(size_t spring, const Vec3& to, bool keepsForce) const override;
 	SpringState commit(size_t spring, const Vec3& to) override { return trial(spring, to, false); }
 	bool isLinear() const override { return true; }
 	/// With P_max of the joint, the forces beyond it fall by the same number: the closest ones in terms of energy.
-	double limit(std::vector<SpringState>& states, std::vector<Vec3>& shared) const override;
+	double limit(std::vector<SpringTrial>& states, std::vector<Vec3>& shared) const override;
 };
 
 } // namespace timber

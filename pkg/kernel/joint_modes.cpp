@@ -53,43 +53,29 @@ namespace {
 		return std::sqrt(squares);
 	}
 
-	/// Modes in world axes: eta = linear^T (vB - vA) + onB^T wB - onA^T wA.
-	template <int n> struct ModalAxes {
-		ModalVectors<n> linear, angular; ///< Z [kg^1/2, kg^1/2 m]
-		ModalVectors<n> onA, onB; ///< about the centres of mass [kg^1/2 m]
-
-		ModalAxes(const JointModes& modes, const Mat3& axesA, const Vec3& armA, const Vec3& armB)
-		        : linear(axesA * modes.modes.topRows<3>())
-		        , angular(axesA * modes.modes.bottomRows<3>())
-		{
-			for (int k = 0; k < 6; ++k) {
-				onA.col(k) = armA.cross(linear.col(k)) + angular.col(k);
-				onB.col(k) = armB.cross(linear.col(k)) + angular.col(k);
-			}
-		}
-		explicit ModalAxes(const SpringAxis& line)
-		        : linear(line.axis / std::sqrt(line.response))
-		        , angular(Vec3::Zero())
-		        , onA(line.armA.cross(linear))
-		        , onB(line.armB.cross(linear))
-		{
-		}
-		Modal<n> velocity(const Vec3& vA, const Vec3& wA, const Vec3& vB, const Vec3& wB) const
-		{
-			return linear.transpose() * (vB - vA) + onB.transpose() * wB - onA.transpose() * wA;
-		}
-	};
-
-	/// J R of contact_solver.hpp for one mode.
-	template <int n>
-	PairVector rowOf(const ModalAxes<n>& axes, int k, const InverseRootMass& rootA, const InverseRootMass& rootB)
+	/// J R of contact_solver.hpp of an impulse `linear` on B, with the torques onA, onB about the centres of mass.
+	[[gnu::always_inline]] inline PairVector rowOf(
+	        const Vec3& linear, const Vec3& onA, const Vec3& onB, const SolverBodies& bodies)
 	{
-		const Vec3 linear = axes.linear.col(k), angularA = rootA.weightedTorque<double>(axes.onA.col(k)),
-		           angularB = rootB.weightedTorque<double>(axes.onB.col(k));
-		const Vec3 a = -rootA.linear * linear, b = rootB.linear * linear;
+		const auto& [bodyA, bodyB, rootA, rootB] = bodies;
+		const Vec3 angularA = rootA.weightedTorque<double>(onA), angularB = rootB.weightedTorque<double>(onB),
+		           a = -rootA.linear * linear, b = rootB.linear * linear;
 		using Quad = PairVector::Quad; // no array of numbers, from which the processor loads vectors late
 		return { { Quad { a[0], a[1], a[2], -angularA[0] }, Quad { -angularA[1], -angularA[2], b[0], b[1] },
 			Quad { b[2], angularB[0], angularB[1], angularB[2] } } };
+	}
+
+	/// Velocity and spin of B relative to A at a joint's centre, in the axes of A.
+	[[gnu::always_inline]] inline Vec6 twistOf(
+	        const Mat3& axesA, const Vec3& velocity, const Vec3& wA, const Vec3& wB)
+	{
+		const Vec3 spin = wB - wA;
+		Vec6 twist;
+		for (int i = 0; i < 3; ++i) {
+			twist[i] = axesA.col(i).dot(velocity);
+			twist[3 + i] = axesA.col(i).dot(spin);
+		}
+		return twist;
 	}
 
 	template <int n>
@@ -147,42 +133,39 @@ SpringAxis::SpringAxis(
         : axis(line)
         , armA(toEndA)
         , armB(toEndB)
+        , onA(armA.cross(axis))
+        , onB(armB.cross(axis))
         , stiffness(k)
 {
 	assert(isUnit(axis) && stiffness > 0);
-	const Vec3 onA = armA.cross(axis), onB = armB.cross(axis);
 	response = a.inverseMass + b.inverseMass + onA.dot(a.inverseInertia * onA) + onB.dot(b.inverseInertia * onB);
 }
 
 double dashpotPower(const SolverBody& a, const SolverBody& b, const JointModes& modes, const Mat3& axesA,
         const JointDamping& damping)
 {
-	const Vec3 armA = axesA * modes.centre;
-	const Vec6 eta
-	        = ModalAxes<6>(modes, axesA, armA, armOfB(armA, a, b)).velocity(a.velocity, a.spin, b.velocity, b.spin);
+	const Vec3 armA = axesA * modes.centre, armB = armOfB(armA, a, b),
+	           v = relativeVelocity<double>(armA, armB, a.velocity, a.spin, b.velocity, b.spin);
+	const Vec6 eta = modes.modes.transpose() * twistOf(axesA, v, a.spin, b.spin);
 	return modes.frequencies.unaryExpr([&](double omega) { return damping.of(omega); }).dot(eta.cwiseAbs2());
 }
 
 double dashpotPower(const SolverBody& a, const SolverBody& b, const SpringAxis& line, const JointDamping& damping)
 {
-	const double eta = ModalAxes<1>(line).velocity(a.velocity, a.spin, b.velocity, b.spin)[0];
-	return damping.of(line.frequency()) * eta * eta;
+	const Vec3 v = relativeVelocity<double>(line.armA, line.armB, a.velocity, a.spin, b.velocity, b.spin);
+	const double omega = line.frequency(), along = line.axis.dot(v);
+	return damping.of(omega) * along * along / line.response;
 }
 
 namespace {
-	/// frequencies: increasing
+	/// frequencies: increasing; before, now: modal velocities before the step and without impulses of the solver
 	template <int n>
-	void prepare(ModalConstraint<n>& c, const SolverBodies& bodies, const ModalAxes<n>& axes,
-	        const Modal<n>& frequencies, const JointDamping& damping, double h)
+	void prepare(ModalConstraint<n>& c, const Modal<n>& before, const Modal<n>& now, const Modal<n>& frequencies,
+	        const JointDamping& damping, double h)
 	{
 		assert(h > 0 && damping.ratio >= 0 && damping.time >= 0 && damping.tangent >= 0 && isRotation(c.axesA));
-		const auto& [a, b, rootA, rootB] = bodies;
-		c.linear = axes.linear;
-		c.angular = axes.angular;
-		for (int k = 0; k < n; ++k)
-			c.rows[k] = rowOf(axes, k, rootA, rootB);
-		c.before = axes.velocity(a.velocity, a.spin, b.velocity, b.spin);
-		c.velocity = axes.velocity(a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
+		c.before = before;
+		c.velocity = now;
 		const Eigen::Array<double, n, 1> x
 		        = h / 2 * frequencies.array().unaryExpr([&](double omega) { return damping.of(omega); });
 		c.phase = h * frequencies[n - 1];
@@ -190,30 +173,53 @@ namespace {
 		c.thresholdShare = stiffest > stiffPhase ? stiffToleranceShare / (square * square) : 1;
 		c.decay = x;
 		c.share = x / (1 + x);
-		c.bias = -x / (1 + x) * c.before.array();
+		c.bias = -c.share.array() * before.array();
 		c.impulse.setZero();
 		c.h = h;
 		c.dissipated = 0;
 	}
 }
 
+/// The rows of the modes are sums of those of the six axes of A at the joint's centre.
 void prepareModes(ModalConstraint<6>& c, const SolverBodies& bodies, const JointModes& modes, const Mat3& axesA,
         const JointDamping& damping, double h)
 {
 	assert(modes.state.springs > 0);
+	const auto& [a, b, rootA, rootB] = bodies;
+	const Vec3 none = Vec3::Zero();
+	c.basis = &modes.modes;
 	c.axesA = axesA;
 	c.armA = axesA * modes.centre;
-	c.armB = armOfB(c.armA, bodies.a, bodies.b);
-	prepare<6>(c, bodies, { modes, axesA, c.armA, c.armB }, modes.frequencies, damping, h);
+	c.armB = armOfB(c.armA, a, b);
+	PairVector ofAxes[6];
+	for (int i = 0; i < 3; ++i) {
+		const Vec3 axis = axesA.col(i);
+		ofAxes[i] = rowOf(axis, c.armA.cross(axis), c.armB.cross(axis), bodies);
+		ofAxes[3 + i] = rowOf(none, axis, axis, bodies);
+	}
+	for (int k = 0; k < 6; ++k) {
+		PairVector row {};
+		for (int i = 0; i < 6; ++i)
+			row.add(ofAxes[i], modes.modes(i, k));
+		c.rows[k] = row;
+	}
+	const Vec6 before = twistOf(axesA, bodies.velocityBefore<double>(c.armA, c.armB), a.spin, b.spin),
+	           now = twistOf(axesA, bodies.velocity<double>(c.armA, c.armB), a.newSpin, b.newSpin);
+	prepare<6>(c, modes.modes.transpose() * before, modes.modes.transpose() * now, modes.frequencies, damping, h);
 }
 
 void prepareModes(ModalConstraint<1>& c, const SolverBodies& bodies, const SpringAxis& line, const Mat3& axesA,
         const JointDamping& damping, double h)
 {
+	const double scale = 1 / std::sqrt(line.response);
+	c.basis = scale * line.axis;
 	c.axesA = axesA;
 	c.armA = line.armA;
 	c.armB = line.armB;
-	prepare<1>(c, bodies, ModalAxes<1>(line), Modal<1>(line.frequency()), damping, h);
+	c.rows[0] = rowOf(c.basis, scale * line.onA, scale * line.onB, bodies);
+	const double before = c.basis.dot(bodies.velocityBefore<double>(line.armA, line.armB)),
+	             now = c.basis.dot(bodies.velocity<double>(line.armA, line.armB));
+	prepare<1>(c, Modal<1>(before), Modal<1>(now), Modal<1>(line.frequency()), damping, h);
 }
 
 template <int n> void addSprings(ModalConstraint<n>& c, SpringSteps<n> springs)

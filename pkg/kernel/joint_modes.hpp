@@ -59,6 +59,7 @@
 #include "solver_body.hpp"
 #include "spring_step.hpp"
 #include <algorithm>
+#include <type_traits>
 
 namespace timber {
 
@@ -75,7 +76,7 @@ struct JointState {
 	JointStiffness stiffness { 0, 0 }; ///< of each
 	double pairInverseMass = 0; ///< [1/kg]
 	double inverseInertia = 0; ///< traces of both bodies [1/(kg m2)]
-	Quat relative = Quat::Identity(); ///< orientation of B in the axes of A
+	Mat3 relative = Mat3::Identity(); ///< rotation matrix from the frame of B to that of A
 
 	/// Whether springs and bodies are the same but for their orientations.
 	bool hasSame(const JointState& now) const
@@ -87,8 +88,8 @@ struct JointState {
 	/// Whether modes of this state serve for another one. largestTurn: of the bodies against each other [rad]
 	bool fits(const JointState& now, double largestTurn) const
 	{
-		// Cosine of half the angle
-		return hasSame(now) && std::abs(relative.dot(now.relative)) > 1 - largestTurn * largestTurn / 8;
+		const double cosine = (relative.cwiseProduct(now.relative).sum() - 1) / 2;
+		return hasSame(now) && cosine > 1 - largestTurn * largestTurn / 2;
 	}
 };
 
@@ -145,6 +146,7 @@ struct SpringAxis {
 	Vec3 axis = Vec3::Zero(); ///< unit, fixed in A, world
 	Vec3 armA = Vec3::Zero(),
 	     armB = Vec3::Zero(); ///< from the centres of mass to the end in B, where forces act [m]
+	Vec3 onA = Vec3::Zero(), onB = Vec3::Zero(); ///< arms x axis [m]
 	double stiffness = 0; ///< [N/m]
 	double response = 0; ///< of the relative velocity along the axis to an impulse along it [1/kg]
 
@@ -165,7 +167,8 @@ template <int n> struct ModalConstraint {
 	int bodyA, bodyB;
 	PairVector rows[n]; ///< of J R (contact_solver.hpp)
 	Modal<n> velocity; ///< Z^T u_0
-	ModalVectors<n> linear, angular; ///< Z, in world axes
+	/// Z: in the axes of A, that of JointModes; n = 1: its part of translation, in world axes
+	std::conditional_t<n == 1, Vec3, const Mat6*> basis;
 	Mat3 axesA; ///< rotation matrix from the frame of A to the world
 	Vec3 armA, armB; ///< from the centres of mass to the joint's centre [m]
 	Modal<n> before; ///< eta
@@ -187,7 +190,7 @@ template <int n> struct ModalConstraint {
 	static constexpr size_t count = 1; ///< contact points for which a joint counts in the convergence of the sweeps
 };
 
-/// Constraint for a step of h [s], with zero impulse.
+/// Constraint for a step of h [s], with zero impulse. modes: they must live as long.
 void prepareModes(ModalConstraint<6>& constraint, const SolverBodies& bodies, const JointModes& modes,
         const Mat3& axesA, const JointDamping& damping, double h);
 void prepareModes(ModalConstraint<1>& constraint, const SolverBodies& bodies, const SpringAxis& axis, const Mat3& axesA,
@@ -225,7 +228,11 @@ struct JointImpulse {
 };
 template <int n> JointImpulse jointImpulse(const ModalConstraint<n>& c)
 {
-	return { c.linear * c.impulse, c.angular * c.impulse };
+	if constexpr (n == 1) return { c.basis * c.impulse[0], Vec3::Zero() };
+	else {
+		const Vec6 P = *c.basis * c.impulse;
+		return { c.axesA * P.template head<3>(), c.axesA * P.template tail<3>() };
+	}
 }
 
 } // namespace timber

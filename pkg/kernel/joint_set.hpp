@@ -20,12 +20,12 @@ struct JointEntry {
 	JointStrength strength { std::numeric_limits<double>::infinity(), false };
 	JointDamping damping { 0 }; ///< at the initial stiffness
 	bool initialDamping = false; ///< the dashpots keep it
-	JointLaw law; ///< of a spring
 
 	size_t firstGroup = 0, springs = 0; ///< its groups of lanes; number of its springs
 	size_t intact = 0; ///< number of the unbroken ones
 	JointForce total; ///< of the springs in the last step
 	double created = 0; ///< energy that explicit springs err by in it [J]
+	JointLaw law; ///< of a spring
 	/// z0 of the springs of a stiff joint (spring_step.hpp), frame of A; empty: it is not stiff [m]
 	std::vector<Vec3> half;
 	double account = 0; ///< A of a stiff joint [J]

@@ -6,23 +6,6 @@
 
 namespace timber {
 
-namespace {
-
-	/// Tangent stiffness of a spring along its stretch of length r, over k; 0 where its force falls. [-]
-	/// before, after: histories before and after the update to this stretch
-	double tangentAlong(const SlipLaw& law, const SlipHistory& before, const SlipHistory& after, double r)
-	{
-		const double slack = law.slackAt(after.largest).slack, grown = after.largest - before.largest,
-		             limits = after.largest - slack - before.largest + law.slackAt(before.largest).slack;
-		const double onBackbone = grown > 0 ? std::max(0., limits / grown) : 0;
-		const double friction = after.plastic == before.plastic ? 1 : onBackbone,
-		             slip = r <= slack ? 0
-		        : grown > 0            ? onBackbone
-		                               : 1;
-		return law.frictionShare * friction + (1 - law.frictionShare) * slip;
-	}
-}
-
 const char* SlipLaw::unmetBy(double stiffness, const std::vector<BackbonePoint>& points)
 {
 	if (points.size() < 2) return "of two or more points";
@@ -92,22 +75,31 @@ namespace {
 		double limit, slack; ///< y, s at R [m]
 		double mean; ///< elastic limit while s grows, else y [m]
 		double work; ///< P at R minus P before [m2]
+		/// dy / dR >= 0 of each part: where p moves, and where d is beyond the slack. [-]
+		double friction, slip;
 	};
+
+	SlipGrowth growthTo(double largest, double limit, double mean, double work, double before, double then)
+	{
+		const double grown = largest - before, rise = grown > 0 ? std::max(0., (limit - then) / grown) : 0;
+		return { largest, limit, largest - limit, mean, work, rise, grown > 0 ? rise : 1 };
+	}
 
 	SlipGrowth growth(const SlipLaw& law, double before, double largest)
 	{
 		const SlipLaw::Slack now = law.slackAt(largest), then = largest > before ? law.slackAt(before) : now;
 		const double limit = largest - now.slack, slackGrowth = now.slack - then.slack,
 		             work = now.limitIntegral - then.limitIntegral;
-		return { largest, limit, now.slack, slackGrowth > 0 ? work / slackGrowth : limit, work };
+		return growthTo(largest, limit, slackGrowth > 0 ? work / slackGrowth : limit, work, before,
+		        before - then.slack);
 	}
 
 	/// With the largest limit between both ends in place of the last one.
 	SlipGrowth heldGrowth(const SlipLaw& law, double before, double largest)
 	{
-		const double limit = law.largestLimit(before, largest), slack = largest - limit,
-		             then = law.slackAt(before).slack, mean = (limit + before - then) / 2;
-		return { largest, limit, slack, mean, mean * (slack - then) };
+		const double limit = law.largestLimit(before, largest), slack = law.slackAt(before).slack,
+		             mean = (limit + before - slack) / 2;
+		return growthTo(largest, limit, mean, mean * (largest - limit - slack), before, before - slack);
 	}
 
 	/// Elastic stretch of the friction part by radial return.
@@ -128,19 +120,18 @@ namespace {
 		const double phi = law.frictionShare, k = law.stiffness, r = stretch.norm();
 		const RadialReturn part = radialReturn(stretch - history.plastic, g.limit);
 		const Vec3 plastic = part.flow > 0 ? Vec3(stretch - part.elastic) : history.plastic;
-		const double slip = std::max(0., r - g.slack), along = slip > 0 ? slip / r : 0;
+		const double slip = std::max(0., r - g.slack), along = slip > 0 ? slip / r : 0,
+		             share = phi * (part.flow > 0 ? g.friction : 1) + (1 - phi) * (slip > 0 ? g.slip : 0);
 		return { k * (phi * part.elastic + (1 - phi) * along * stretch),
 			k / 2 * (phi * part.elastic.squaredNorm() + (1 - phi) * slip * slip),
-			k * (phi * g.mean * part.flow + (1 - phi) * g.work), { plastic, g.largest } };
+			k * (phi * g.mean * part.flow + (1 - phi) * g.work), share, { plastic, g.largest } };
 	}
 
 	/// Tangent of both parts, without the change of the friction part's limit across the stretch.
 	Mat3 tangentOf(const SlipLaw& law, const SlipHistory& history, const Vec3& stretch, const SlipGrowth& g)
 	{
 		const double phi = law.frictionShare, k = law.stiffness, r = stretch.norm(),
-		             slip = std::max(0., r - g.slack), grown = g.largest - history.largest,
-		             then = history.largest - law.slackAt(history.largest).slack,
-		             rise = grown > 0 ? std::max(0., (g.limit - then) / grown) : 1;
+		             slip = std::max(0., r - g.slack);
 		const Mat3 one = Mat3::Identity();
 		const Vec3 normal = r > 0 ? Vec3(stretch / r) : Vec3(Vec3::Zero());
 		const Mat3 radial = normal * normal.transpose();
@@ -149,9 +140,9 @@ namespace {
 		Mat3 friction = one;
 		if (part.flow > 0)
 			friction = g.limit / part.trial * (one - trial * trial.transpose() / (part.trial * part.trial))
-			        + (grown > 0 ? rise : 0) * radial;
+			        + g.friction * radial;
 		Mat3 slipping = Mat3::Zero();
-		if (slip > 0) slipping = slip / r * (one - radial) + rise * radial;
+		if (slip > 0) slipping = slip / r * (one - radial) + g.slip * radial;
 		return k * (phi * friction + (1 - phi) * slipping);
 	}
 }
@@ -180,25 +171,14 @@ SlipSprings::SlipSprings(const SlipLaw& l, const Vec3& a, size_t count)
 	assert(law.isValid() && (axis.isZero(0) || isUnit(axis)));
 }
 
-SpringState SlipSprings::projected(const SlipForce& force, const Mat3& tangent) const
-{
-	SpringState state;
-	state.force = force.force;
-	state.energy = force.energy;
-	state.dissipated = force.dissipated;
-	state.tangent = axis.isZero(0) ? tangent : Mat3(axis.dot(tangent * axis) * axis * axis.transpose());
-	return state;
-}
-
-SpringState SlipSprings::trial(size_t spring, const Vec3& to, bool keepsForce) const
+SpringTrial SlipSprings::trial(size_t spring, const Vec3& to, bool keepsForce) const
 {
 	const SlipHistory before { plastic[spring], largest[spring] };
 	const Vec3 stretch = onAxis(to);
 	Mat3 tangent;
 	const SlipForce force = slipForce(law, before, stretch, keepsForce, tangent);
-	SpringState state = projected(force, tangent);
-	state.share = tangentAlong(law, before, force.history, stretch.norm());
-	return state;
+	if (!axis.isZero(0)) tangent = axis.dot(tangent * axis) * axis * axis.transpose();
+	return { { force.force, force.energy, force.dissipated, false, force.share }, tangent };
 }
 
 SpringState SlipSprings::commit(size_t spring, const Vec3& to)
@@ -208,10 +188,7 @@ SpringState SlipSprings::commit(size_t spring, const Vec3& to)
 	const SlipForce force = slipForce(law, before, stretch);
 	plastic[spring] = force.history.plastic;
 	largest[spring] = force.history.largest;
-	SpringState state = projected(force, Mat3::Zero());
-	state.share = tangentAlong(law, before, force.history, stretch.norm());
-	state.breaks = isSpent(spring);
-	return state;
+	return { force.force, force.energy, force.dissipated, isSpent(spring), force.share };
 }
 
 } // namespace timber

@@ -99,6 +99,8 @@ struct SlipForce {
 	Vec3 force; ///< on A, in the frame of the stretch [N]
 	double energy; ///< stored [J]
 	double dissipated; ///< in this update, >= 0 [J]
+	/// Tangent stiffness along the stretch over k, 0 where the force falls [-]
+	double share;
 	SlipHistory history; ///< after the update
 };
 
@@ -116,7 +118,6 @@ class SlipSprings : public SpringLaw {
 	SlipLaw law;
 	Vec3 axis;
 
-	SpringState projected(const SlipForce& force, const Mat3& tangent) const;
 	Vec3 onAxis(const Vec3& stretch) const { return axis.isZero(0) ? stretch : Vec3(axis.dot(stretch) * axis); }
 
 public:
@@ -125,7 +126,7 @@ public:
 
 	/// axis: unit vector in the frame of A, on which the stretches are projected; zero: they act in all directions.
 	SlipSprings(const SlipLaw&, const Vec3& axis, size_t count = 0);
-	SpringState trial(size_t spring, const Vec3& to, bool keepsForce) const override;
+	SpringTrial trial(size_t spring, const Vec3& to, bool keepsForce) const override;
 	SpringState commit(size_t spring, const Vec3& to) override;
 	bool isSpent(size_t spring) const override { return largest[spring] >= law.ultimateStretch(); }
 	double steepestFall() const override { return law.steepestFall(); }

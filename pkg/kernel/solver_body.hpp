@@ -28,6 +28,7 @@ struct SolverBody {
 	double inverseMass; ///< 0 for a fixed body [1/kg]
 	Mat3 inverseInertia; ///< world axes [1/(kg m2)]
 	Vec3 position = Vec3::Zero(); ///< [m]
+	Mat3 axes = Mat3::Identity(); ///< rotation matrix from the body's frame to the world
 };
 
 /// Inverse of the equivalent mass of two bodies (Eq. 43). [1/kg]

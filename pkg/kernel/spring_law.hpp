@@ -10,13 +10,17 @@ namespace timber {
 /// A spring at the end of a step.
 struct SpringState {
 	Vec3 force = Vec3::Zero(); ///< f on A [N]
-	/// Of the force by the stretch: symmetric, positive semidefinite [N/m]
-	Mat3 tangent = Mat3::Zero();
 	double energy = 0; ///< U: what it could return [J]
 	double dissipated = 0; ///< D >= 0, on the straight path from the stretch before the step [J]
 	bool breaks = false; ///< exceeds its strength or ultimate stretch
 	/// Tangent stiffness along the stretch over the initial one, 0 to 1, of the line that the path has reached [-]
 	double share = 1;
+};
+
+/// A spring at a stretch that is tried.
+struct SpringTrial : SpringState {
+	/// Of the force by the stretch: symmetric, positive semidefinite [N/m]
+	Mat3 tangent = Mat3::Zero();
 };
 
 /// Springs of a joint with their histories.
@@ -26,7 +30,7 @@ public:
 	/// State at the end of the straight path from the stretch of the history to another one [m].
 	/// The history stays. With keepsForce the force must not fall along a path that goes on: a law that softens
 	/// keeps its force here, and loses it in commit().
-	virtual SpringState trial(size_t spring, const Vec3& to, bool keepsForce) const = 0;
+	virtual SpringTrial trial(size_t spring, const Vec3& to, bool keepsForce) const = 0;
 	/// The same with all of the law; the history goes on to the other stretch.
 	virtual SpringState commit(size_t spring, const Vec3& to) = 0;
 	/// Whether no strength is left. Springs that reach their strength without a history break in other ways.
@@ -38,7 +42,7 @@ public:
 	/// Applies a strength that the springs share to trial states. shared: out, unit vectors of the forces that it
 	/// limits, of each spring. Returns kappa: the tangent of all forces is that of the states minus kappa s s^T
 	/// with the vector s of all entries of `shared` [N/m]; 0 without such a limit, or below it.
-	virtual double limit(std::vector<SpringState>& states, std::vector<Vec3>& shared) const
+	virtual double limit(std::vector<SpringTrial>& states, std::vector<Vec3>& shared) const
 	{
 		(void)states, (void)shared;
 		return 0;

@@ -23,7 +23,7 @@ namespace {
 	}
 
 	/// Tangent of F by z1: half of that of f1, with the exact slope along the way, at least `least`.
-	Mat3 meanTangent(const SpringState& end, const Vec3& force, const Vec3& way, double least)
+	Mat3 meanTangent(const SpringTrial& end, const Vec3& force, const Vec3& way, double least)
 	{
 		Mat3 tangent = end.tangent / 2;
 		const double square = way.squaredNorm();
@@ -253,12 +253,10 @@ template <int n> void SpringSteps<n>::finish(const Step& step, const Vec& impuls
 	double energy = 0;
 	for (size_t i = 0; i < springs.size(); ++i) {
 		SpringStep<n>& s = springs[i];
-		const bool breaks = states[i].breaks;
-		if (!breaks) states[i] = law->commit(s.spring, s.stretch);
+		s.end = states[i].breaks ? states[i] : law->commit(s.spring, s.stretch);
 		s.force = forces[i];
-		s.end = states[i];
-		s.breaks = breaks || states[i].breaks;
-		if (!s.breaks) energy += states[i].energy;
+		s.breaks = s.end.breaks;
+		if (!s.breaks) energy += s.end.energy;
 	}
 	dissipated += std::max(0., account - energy);
 	account = std::min(account, energy);

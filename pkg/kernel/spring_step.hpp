@@ -71,7 +71,7 @@ template <int n> class SpringSteps {
 	using Step = ModalStep<n>;
 
 	SpringLaw* law = nullptr;
-	std::vector<SpringState> states; ///< of the springs at z1
+	std::vector<SpringTrial> states; ///< of the springs at z1
 	std::vector<Vec3> shared; ///< of SpringLaw::limit()
 	Vec applied = Vec::Zero(); ///< q_a
 	Mat inverseSlope; ///< of (3), of the last Newton step of linear springs: it serves until they reach the strength

@@ -167,6 +167,12 @@ WallLaw::Bound WallLaw::bound(double u, const Line& p) const
 	return { p, std::max(least, start), aim, reload };
 }
 
+const WallLaw::Bound& WallLaw::bound(Bounds::Known& known, double u, const Line& p) const
+{
+	if (known.u != u || !(known.bound.pinched == p)) known = { u, bound(u, p) };
+	return known.bound;
+}
+
 double WallLaw::valueAt(const Bound& b, double x) const
 {
 	if (x <= b.start) return b.pinched.at(x);
@@ -266,7 +272,7 @@ WallForce WallLaw::elastic(double stretch, const WallHistory& next) const
 	return now;
 }
 
-WallForce WallLaw::advance(const WallHistory& history, double stretch) const
+WallForce WallLaw::advance(const WallHistory& history, Bounds& bounds, double stretch) const
 {
 	assert(isValid() && std::isfinite(stretch));
 	if (stretch == history.stretch) return { cycles.stiffness, energy(history), 0, history };
@@ -279,15 +285,17 @@ WallForce WallLaw::advance(const WallHistory& history, double stretch) const
 	next.largest[side] = std::max(next.largest[side], x1);
 	if (isElastic(history)) return elastic(stretch, next);
 
-	const Line before = pinched(history), after = pinched(next);
-	const Bound upper = bound(history.reversed[side], before);
+	const Line before = pinched(history),
+	           after = next.largest[side] > history.largest[side] ? pinched(next) : before;
+	const Bound& upper = bound(bounds.ofReversed[side], history.reversed[side], before);
 	const double trial = sign * history.force + k * (x1 - x0);
 	const Arrival arrival = trial <= valueAt(upper, x1) ? Arrival { trial, k, 0 }
 	                                                    : moveAlong(upper, x0, sign * history.force, x1, after);
 	next.force = sign * arrival.force;
 	// The other side reloads to its largest displacement once the force has fallen below that line
 	const double largest = next.largest[other];
-	if (largest > next.reversed[other] && -arrival.force <= valueAt(bound(largest, after), -x1))
+	if (largest > next.reversed[other]
+	        && -arrival.force <= valueAt(bound(bounds.ofLargest[other], largest, after), -x1))
 		next.reversed[other] = largest;
 	return { arrival.slope, energyOf(after, stretch, next.force), arrival.dissipated, next };
 }
@@ -331,24 +339,21 @@ WallSprings::WallSprings(const WallLaw& law_, const Vec3& axis_)
 
 SpringState WallSprings::along(const WallForce& force) const
 {
-	SpringState state;
-	state.force = force.history.force * axis;
-	state.tangent = std::max(0., force.tangent) * axis * axis.transpose();
-	state.energy = force.energy;
-	state.dissipated = force.dissipated;
-	state.share = std::clamp(force.tangent / law.stiffness(), 0., 1.);
-	return state;
+	return { force.history.force * axis, force.energy, force.dissipated, false,
+		std::clamp(force.tangent / law.stiffness(), 0., 1.) };
 }
 
-SpringState WallSprings::trial(size_t spring, const Vec3& to, bool keepsForce) const
+SpringTrial WallSprings::trial(size_t spring, const Vec3& to, bool keepsForce) const
 {
 	const WallHistory& history = histories[spring];
-	return along(keepsForce ? law.hold(history, axis.dot(to)) : law.advance(history, axis.dot(to)));
+	const WallForce force = keepsForce ? law.hold(history, axis.dot(to)) : law.advance(history, axis.dot(to));
+	return { along(force), std::max(0., force.tangent) * axis * axis.transpose() };
 }
 
 SpringState WallSprings::commit(size_t spring, const Vec3& to)
 {
-	const WallForce force = law.advance(histories[spring], axis.dot(to));
+	bounds.resize(histories.size());
+	const WallForce force = law.advance(histories[spring], bounds[spring], axis.dot(to));
 	histories[spring] = force.history;
 	SpringState state = along(force);
 	state.breaks = isSpent(spring);

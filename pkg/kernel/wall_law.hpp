@@ -81,6 +81,7 @@ class WallLaw {
 	struct Line {
 		double slope, offset; ///< at zero stretch [N/m, N]
 		double at(double x) const { return slope * x + offset; }
+		bool operator==(const Line& o) const { return slope == o.slope && offset == o.offset; }
 	};
 	/// The bound of a side.
 	struct Bound {
@@ -88,6 +89,19 @@ class WallLaw {
 		double start, end; ///< x_s, x_t [m]
 		Line reload;
 	};
+
+public:
+	/// Last bounds of a spring: they are computed again when their arguments have changed.
+	class Bounds {
+		friend class WallLaw;
+		struct Known {
+			double u = -1;
+			Bound bound {};
+		};
+		Known ofReversed[2], ofLargest[2]; ///< of each side
+	};
+
+private:
 	/// Where a spring that moves towards a side arrives.
 	struct Arrival {
 		double force, slope, dissipated; ///< [N, N/m, J]
@@ -103,6 +117,7 @@ class WallLaw {
 	double slackOf(double u, const Line& pinched) const;
 	Line pinched(const WallHistory&) const;
 	Bound bound(double u, const Line& pinched) const;
+	const Bound& bound(Bounds::Known&, double u, const Line& pinched) const;
 	double valueAt(const Bound&, double x) const;
 	double energyOf(const Line& pinched, double x, double force) const;
 	double strongest(const WallHistory&, double stretch) const;
@@ -128,7 +143,13 @@ public:
 		return knots.back().force == 0 && (history.largest[0] >= end || history.largest[1] >= end);
 	}
 	/// To another stretch [m]. An update with the same stretch again changes nothing.
-	WallForce advance(const WallHistory&, double stretch) const;
+	WallForce advance(const WallHistory& history, double stretch) const
+	{
+		Bounds none;
+		return advance(history, none, stretch);
+	}
+	/// bounds: of the spring, in-out
+	WallForce advance(const WallHistory&, Bounds& bounds, double stretch) const;
 	/// The same for a step that does not resolve the spring: where the backbone falls on the path, the spring keeps
 	/// the largest force of the path, as on a plateau. The history keeps its largest stretches.
 	WallForce hold(const WallHistory&, double stretch) const;
@@ -139,6 +160,7 @@ public:
 class WallSprings : public SpringLaw {
 	WallLaw law;
 	Vec3 axis;
+	std::vector<WallLaw::Bounds> bounds; ///< of each spring
 
 	SpringState along(const WallForce& force) const;
 
@@ -147,7 +169,7 @@ public:
 
 	/// axis: unit vector in the frame of A
 	WallSprings(const WallLaw& law_, const Vec3& axis_);
-	SpringState trial(size_t spring, const Vec3& to, bool keepsForce) const override;
+	SpringTrial trial(size_t spring, const Vec3& to, bool keepsForce) const override;
 	SpringState commit(size_t spring, const Vec3& to) override;
 	bool isSpent(size_t spring) const override { return law.isSpent(histories[spring]); }
 	double steepestFall() const override { return law.steepestFall(); }

@@ -32,13 +32,16 @@ double backbone(double d)
 struct Spring {
 	WallLaw law;
 	WallHistory history = {};
+	WallLaw::Bounds bounds = {};
 	double dissipated = 0, work = 0;
 
 	void lead(double to, int steps = 1)
 	{
 		const double from = history.stretch;
 		for (int i = 1; i <= steps; ++i) {
-			const WallForce f = law.advance(history, i == steps ? to : from + (to - from) * i / steps);
+			const double stretch = i == steps ? to : from + (to - from) * i / steps;
+			const WallForce f = law.advance(history, bounds, stretch);
+			EXPECT_EQ(f.history.force, law.advance(history, stretch).history.force);
 			EXPECT_GE(f.dissipated, 0);
 			EXPECT_DOUBLE_EQ(f.energy, law.energy(f.history));
 			work += (history.force + f.history.force) / 2 * (f.history.stretch - history.stretch);

@@ -189,6 +189,20 @@ def test_springs_along_an_axis_push_along_it_alone(points, dt):
     assert abs(yt.energy_residual()) < 1e-4 * energy["imposed_velocity"]
 
 
+@pytest.mark.parametrize("points", [1, 2])
+@pytest.mark.parametrize("direction, is_stiff", [((0, 4, 0), False), ((0, 0, 4), True)])
+def test_fast_motion_across_an_axis_leaves_springs_explicit(points, direction, is_stiff):
+    """Springs along an axis are in the solver only if a step moves them far along it."""
+    O.reset()
+    O.bodies.append([yt.box((0.2, 0.2, 0.2), (0, 0, 0), fixed=True), yt.box((0.1, 0.1, 0.1), (0, 0, 0.3))])
+    O.dt, O.engines = 1e-4, yt.engines(gravity=(0, 0, 0))
+    places = [(0.03 * k, 0, 0.3) for k in ((0,) if points == 1 else (-1, 1))]
+    yt.connect(0, 1, places, (0, 0, 1), (1e5, 0), 200, slip=yt.SlipLaw(0.05, 0.08))
+    yt.set_velocity(O.bodies[1], direction)
+    O.run(3, True)
+    assert (find_engine(yw.ContactForces).elasticJoints > 0) == is_stiff
+
+
 @pytest.mark.rare
 def test_yielding_joints_of_a_house_converge():
     """Strong shaking of tiled_house: visits of a joint that yields and of its neighbours do not alternate for ever."""
