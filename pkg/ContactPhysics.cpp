@@ -84,7 +84,7 @@ namespace {
 			phys.releasedEnergy = 0;
 			return boundsOverlap(b1, b2);
 		}
-		phys.power = Law::power;
+		phys.exponent = Law::exponent;
 		phys.strength = form == timber::NormalForm::Increment
 		        ? timber::BearingStrength() // as in the paper
 		        : timber::bearingStrength(phys.bearing, phys.bearingRadius, geom.contactPoints);

@@ -17,8 +17,9 @@ namespace serialization {
 	}
 	template <class Archive> void serialize(Archive& ar, timber::PointRecord& p, const unsigned int)
 	{
-		ar& make_nvp("id", p.id.bits) & make_nvp("excess", p.excess) & make_nvp("crushed", p.crushed)
-		        & make_nvp("overlap", p.overlap) & make_nvp("stiffness", p.stiffness);
+		ar& make_nvp("id", p.id.bits) & make_nvp("unloadedOverlap", p.unloadedOverlap)
+		        & make_nvp("crushed", p.crushed) & make_nvp("overlap", p.overlap)
+		        & make_nvp("stiffness", p.stiffness);
 		ar& make_nvp("normal", p.normalForce) & make_nvp("energy", p.energy) & make_nvp("shear", p.shearForce)
 		        & make_nvp("dashpot", p.dashpotForce) & make_nvp("normalStored", p.normalStored)
 		        & make_nvp("shearStored", p.shearStored) & make_nvp("impact", p.impact);
@@ -43,7 +44,7 @@ public:
 	bool isIdle() const { return records.empty() && releasedEnergy == 0; }
 	timber::PairProperties properties() const
 	{
-		return { mass, friction, shearRatio, overlapLimit, dampingRatio, power, strength };
+		return { mass, friction, shearRatio, overlapLimit, dampingRatio, exponent, strength };
 	}
 	/// Contact points as tuples, see ``yade_timber.contacts``.
 	boost::python::list pyPoints() const;
@@ -61,7 +62,7 @@ public:
 		((Real, bearing, std::numeric_limits<Real>::infinity(), Attr::triggerPostLoad, "Bearing strength of "
 			"the weaker material; infinite: elastic. [Pa]"))
 		((Real, bearingRadius, 0, Attr::triggerPostLoad, "Smaller rounding radius of the two elements. [m]"))
-		((Real, power, timber::HertzLaw::power, Attr::readonly, "Exponent of the contact law. [-]"))
+		((Real, exponent, timber::HertzLaw::exponent, Attr::readonly, "Exponent of the contact law. [-]"))
 		((vector<timber::PointRecord>, records, , Attr::hidden, "History of the contact points, sorted by "
 			"feature id. [-]"))
 		((SourceNumbers, source, , Attr::hidden, "Numbers of the materials and of the Ip2 functor from which the "

@@ -32,13 +32,13 @@ inline double reduced(double x, double y) { return 1 / (1 / x + 1 / y); }
 inline double equivalentRadius(double volume) { return power(3 * volume / (4 * M_PI), 1. / 3); }
 
 // A law has force(n) [N], stiffness(n) = dF/dn [N/m], energy(n) = integral of F [J] and its inverse overlapOf(energy)
-// [m], and the exponent `power`, q, of its part that hardens: F = k n + c n^q with k, c >= 0. q = 1: no hardening.
+// [m], and the exponent q of its part that hardens: F = k n + c n^q with k, c >= 0. q = 1: no hardening.
 
 /// Timber on timber: Hertz (Eqs. 37-39). overlap n [m].
 struct HertzLaw {
 	double modulus; ///< E* [Pa]
 	double radius; ///< r [m]
-	static constexpr double power = 1.5; ///< q [-]
+	static constexpr double exponent = 1.5; ///< q [-]
 	/// [N] (Eq. 37).
 	template <class Number> Number force(Number n) const
 	{
@@ -60,7 +60,7 @@ struct HertzLaw {
 /// Constant stiffness. Snow: proportional to its mass (Table 1). overlap n [m].
 struct LinearLaw {
 	double constant; ///< [N/m]
-	static constexpr double power = 1; ///< q [-]
+	static constexpr double exponent = 1; ///< q [-]
 	template <class Number> Number force(Number n) const { return Number(constant) * n; } ///< [N]
 	template <class Number> Number stiffness(Number) const { return Number(constant); } ///< [N/m]
 	template <class Number> Number energy(Number n) const { return Number(0.5 * constant) * n * n; } ///< [J]
@@ -74,7 +74,7 @@ struct PairProperties {
 	double shearRatio = 1; ///< K_s / K_n: 1/(2(1+nu)) for timber (Eq. 40), 1 for snow [-]
 	double overlapLimit = 0; ///< the normal force is constant beyond it: the cores touch [m]
 	double dampingRatio = 1; ///< share of critical damping, C = 2 ratio sqrt(m K) (Eqs. 41, 42: 1) [-]
-	double power = HertzLaw::power; ///< exponent q of the law [-]
+	double exponent = HertzLaw::exponent; ///< exponent q of the law [-]
 	BearingStrength strength; ///< of each point
 };
 
@@ -101,7 +101,7 @@ template <class Law> double approachOverlap(const Law& law, double mass, double 
 
 /// Effective overlap of a new point: explained by its approach in the last step, or paid for by the energy released
 /// with other points of the pair in that step (a vertex that slides over a border transfers its load to the crossing
-/// edges). Patterns that the paper ignores (vertex on edge) let a vertex penetrate before a face detects it; the full
+/// edges). ContactKinds that the paper ignores (vertex on edge) let a vertex penetrate before a face detects it; the full
 /// force at once would create energy.
 /// overlap [m] > 0, approach: approachOverlap() [m], energy [J]; returns [m].
 template <class Law> double initialOverlap(const Law& law, double overlap, double approach, double energy)
@@ -162,8 +162,8 @@ template <class Number>
 /// Normal force: the closed form (Eq. 37), or its increment form (Eq. 38), which sums K_n times the change of overlap.
 enum class NormalForm { Closed, Increment };
 
-/// Plastic part of a step: springs whose force exceeds the strength. total: overlap without the plastic one and the
-/// excess [m], in-out.
+/// Plastic part of a step: springs whose force exceeds the strength. total: overlap without the plastic and
+/// the unloaded one [m], in-out.
 template <class Law, class Number>
 void crush(const Law& law, const PairProperties& pair, PointSprings<Number>& s, Number& total)
 {
@@ -180,7 +180,7 @@ void crush(const Law& law, const PairProperties& pair, PointSprings<Number>& s, 
 /// The tangential spring keeps its force while n grows and loses force with K_s while n shrinks, so it never creates
 /// energy. It slides in storeForces(), once the total normal force is known.
 /// What the strength does not bear becomes plastic overlap. The increment form has no strength.
-/// in: law, pair, point, motion, length h of the step [s]; in-out: springs (a new point has only its excess).
+/// in: law, pair, point, motion, length h of the step [s]; in-out: springs (a new point has only its unloaded overlap).
 template <class Law, class Point, class Number>
 [[gnu::always_inline]] inline void elasticStep(const Law& law, const PairProperties& pair, const Point& point,
         const RelativeMotion<Number>& motion, double h, NormalForm form, PointSprings<Number>& springs)
@@ -189,9 +189,9 @@ template <class Law, class Point, class Number>
 	assert(form == NormalForm::Closed || !pair.strength.isLimited());
 	const Number none = 0., limit = pair.overlapLimit;
 	const Number above = max(none, Number(point.overlap - springs.crushed));
-	springs.excess = min(springs.excess, above);
+	springs.unloadedOverlap = min(springs.unloadedOverlap, above);
 	const Number before = springs.overlap, stiffnessBefore = springs.stiffness;
-	Number total = above - springs.excess;
+	Number total = above - springs.unloadedOverlap;
 	springs.overlap = min(total, limit);
 	springs.stiffness = law.stiffness(springs.overlap);
 	if (form == NormalForm::Closed) springs.normalForce = law.force(springs.overlap);

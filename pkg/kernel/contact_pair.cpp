@@ -31,13 +31,13 @@ namespace {
 		p.overlap = record.get(&PointRecord::overlap);
 		if (pair.strength.isLimited())
 			p.strength = pair.strength.force<Number>(record.get(&PointRecord::crushed));
-		if (pair.power == 1) return p;
+		if (pair.exponent == 1) return p;
 		// K n - F = (q - 1) c n^q for F = k n + c n^q
-		p.power = pair.power;
-		p.room = max(Number(0.), Number(Number(pair.overlapLimit) - p.overlap));
+		p.exponent = pair.exponent;
+		p.overlapLeft = max(Number(0.), Number(Number(pair.overlapLimit) - p.overlap));
 		const Number excess = p.normalStiffness * p.overlap - p.elasticNormal;
 		p.hardening = select(p.overlap > Number(roundingOverlap),
-		        max(Number(0.), Number(excess * Number(1 / (pair.power - 1)))), Number(0.));
+		        max(Number(0.), Number(excess * Number(1 / (pair.exponent - 1)))), Number(0.));
 		return p;
 	}
 
@@ -114,15 +114,16 @@ namespace {
 		Number force, stiffness, energy; ///< [N, N/m, J]
 	};
 
-	/// Normal spring after a closing displacement `way` from the placement, F = k n + c n^q.
-	/// U, F, K, n: energy [J], force [N], stiffness [N/m] and overlap [m] at the placement; room: overlap left
+	/// Normal spring after the displacement `closing` from the placement, F = k n + c n^q.
+	/// U, F, K, n: energy [J], force [N], stiffness [N/m] and overlap [m] at the placement; overlapLeft: overlap left
 	/// until the force is constant [m].
 	template <class Number>
 	[[gnu::always_inline]] inline SpringAfter<Number> springAfter(
-	        Number U, Number F, Number K, Number n, Number room, Number way, double q)
+	        Number U, Number F, Number K, Number n, Number overlapLeft, Number closing, double q)
 	{
-		const Number none = 0., g = min(max(way, Number(-n)), room),
-		             rest = max(none, Number(way - room)); // of the way, with and without change of the force
+		const Number none = 0., g = min(max(closing, Number(-n)), overlapLeft),
+		             rest
+		        = max(none, Number(closing - overlapLeft)); // of it, with and without change of the force
 		Number change = F * g + K * g * g / Number(2.), force = F + K * g, stiffness = K;
 		if (q > 1) {
 			const Number floor = max(n, Number(roundingOverlap)), s = Number(1.) + g / floor,
@@ -134,28 +135,29 @@ namespace {
 			force += hard * (power - Number(1.) - Number(q) * ratio);
 			stiffness += hard * Number(q) / floor * (power / s - Number(1.));
 		}
-		return { force, stiffness, select(way > -n, max(none, Number(U + change + rest * force)), none) };
+		return { force, stiffness, select(closing > -n, max(none, Number(U + change + rest * force)), none) };
 	}
 
 	/// Energy of a normal spring that has at most the strength [N], as springAfter(): Newton's method from above
 	/// finds the displacement at which it is reached. [J]
 	inline double energyAtStrength(
-	        double U, double F, double K, double n, double room, double way, double q, double strength)
+	        double U, double F, double K, double n, double overlapLeft, double closing, double q, double strength)
 	{
-		SpringAfter<double> after = springAfter(U, F, K, n, room, way, q);
-		for (int k = 0; k < yieldSteps && way > 0 && after.force > strength * (1 + yieldTolerance); ++k) {
-			way = std::max(0., std::min(way, room) - (after.force - strength) / after.stiffness);
-			after = springAfter(U, F, K, n, room, way, q);
+		SpringAfter<double> after = springAfter(U, F, K, n, overlapLeft, closing, q);
+		for (int k = 0; k < yieldSteps && closing > 0 && after.force > strength * (1 + yieldTolerance); ++k) {
+			closing = std::max(
+			        0., std::min(closing, overlapLeft) - (after.force - strength) / after.stiffness);
+			after = springAfter(U, F, K, n, overlapLeft, closing, q);
 		}
 		return after.energy;
 	}
-	inline Lanes energyAtStrength(const Lanes& U, const Lanes& F, const Lanes& K, const Lanes& n, const Lanes& room,
-	        const Lanes& way, double q, const Lanes& strength)
+	inline Lanes energyAtStrength(const Lanes& U, const Lanes& F, const Lanes& K, const Lanes& n,
+	        const Lanes& overlapLeft, const Lanes& closing, double q, const Lanes& strength)
 	{
 		Lanes energy;
 		for (int i = 0; i < laneCount; ++i)
 			energy.v[i] = energyAtStrength(
-			        U.v[i], F.v[i], K.v[i], n.v[i], room.v[i], way.v[i], q, strength.v[i]);
+			        U.v[i], F.v[i], K.v[i], n.v[i], overlapLeft.v[i], closing.v[i], q, strength.v[i]);
 		return energy;
 	}
 
@@ -182,7 +184,8 @@ void prepareContacts(ContactSolver& solver, size_t k, const PairProperties& pair
 	const SolverPair& solverPair = solver.pair(k);
 	const size_t count = solverPair.count;
 	assert(points.size() == count && records.size() == count);
-	assert(pair.mass > 0 && pair.friction >= 0 && pair.shearRatio > 0 && pair.dampingRatio >= 0 && pair.power >= 1);
+	assert(pair.mass > 0 && pair.friction >= 0 && pair.shearRatio > 0 && pair.dampingRatio >= 0
+	        && pair.exponent >= 1);
 	const SolverBodies bodies = solver.bodiesOf(solverPair);
 	inLanes(count, [&](auto number, size_t i) {
 		using Number = decltype(number);
@@ -232,15 +235,15 @@ PairForce storeForces(ContactSolver& solver, size_t k, const PairProperties& pai
 
 		const Vec after = bodies.velocity<Number>(armA, armB),
 		          mean = (after + bodies.velocityBefore<Number>(armA, armB)) / Number(2.);
-		// Closing way to the middle of the step
-		const Number separation = after.dot(axes[0]), way = Number(-h / 2) * separation;
-		const Number room = max(none, Number(Number(pair.overlapLimit) - n)),
+		// Closing displacement to the middle of the step
+		const Number separation = after.dot(axes[0]), closing = Number(-h / 2) * separation;
+		const Number overlapLeft = max(none, Number(Number(pair.overlapLimit) - n)),
 		             U = record.get(&PointRecord::energy), most = step.get(&PointStep::strength),
 		             strength = most / Number(h);
-		const SpringAfter<Number> spring = springAfter<Number>(U, e, K, n, room, way, pair.power);
+		const SpringAfter<Number> spring = springAfter<Number>(U, e, K, n, overlapLeft, closing, pair.exponent);
 		const Number normalLaw = selectLazily(
 		        spring.force > strength,
-		        [&] { return energyAtStrength(U, e, K, n, room, way, pair.power, strength); },
+		        [&] { return energyAtStrength(U, e, K, n, overlapLeft, closing, pair.exponent, strength); },
 		        [&] { return spring.energy; });
 		const Account<Number> normal(
 		        record.get(&PointRecord::normalStored), p[0] * mean.dot(axes[0]), normalLaw);

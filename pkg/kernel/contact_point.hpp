@@ -11,9 +11,9 @@ namespace timber {
 
 /// State of a point's springs. Forces act on B.
 template <class Number> struct PointSprings {
-	Number excess = 0.; ///< initial overlap that carries no force, see initialOverlap() [m]
+	Number unloadedOverlap = 0.; ///< initial overlap that carries no force, see initialOverlap() [m]
 	Number crushed = 0.; ///< plastic overlap c [m]
-	Number overlap = 0.; ///< elastic overlap n = overlap - crushed - excess, at most the limit [m]
+	Number overlap = 0.; ///< elastic overlap n = overlap - crushed - unloadedOverlap, at most the limit [m]
 	Number stiffness = 0.; ///< K_n [N/m]
 	Number normalForce = 0.; ///< elastic normal force e_n [N]
 	/// U(n) of the normal spring; beyond the limit, where the force is constant, it grows linearly [J]
@@ -49,9 +49,9 @@ struct PointStep {
 	Quad shearResponse; ///< a_tt, a_tu, a_uu: by tangential impulses [1/kg]
 	double friction; ///< mu
 	double rebound, energy, shearEnergy; ///< w, A_n, A_s
-	double hardening, power, overlap, room,
+	double hardening, exponent, overlap, overlapLeft,
 	        damping; ///< c n_0^q, q, n_0, overlap left to the limit (> 0 if the point hardens), C_n
-	double length; ///< h
+	double step; ///< h
 	double strength; ///< h F_Y
 	bool bounded; ///< whether (6) limited the impulse in the last visit
 	bool idle; ///< no impulse, whatever the bodies do
@@ -62,7 +62,7 @@ struct PointStep {
 	double response() const { return column[0]; } ///< a_n
 };
 
-/// s^q, q: power of a contact law, which for Hertz's is a matter of a square root.
+/// s^q, q: exponent of a contact law, which for Hertz's is a matter of a square root.
 template <class Number> Number powerOf(Number s, double q)
 {
 	if (q == 1.5) return s * sqrt(s);

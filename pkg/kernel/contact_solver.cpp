@@ -19,7 +19,7 @@ namespace {
 		        && isNonNegative(p.normalDamping) && isNonNegative(p.shearDamping) && isNonNegative(p.friction)
 		        && isNonNegative(p.normalStiffness) && isNonNegative(p.shearStiffness)
 		        && isNonNegative(p.energy) && isNonNegative(p.shearEnergy) && isNonNegative(p.hardening)
-		        && isNonNegative(p.overlap) && isNonNegative(p.room) && p.power >= 1;
+		        && isNonNegative(p.overlap) && isNonNegative(p.overlapLeft) && p.exponent >= 1;
 	}
 
 } // namespace

@@ -19,8 +19,8 @@ template <class Number> struct StepInput {
 	Number normalStiffness = 0., shearStiffness = 0.; ///< K_n, K_s [N/m]
 	Number energy = unlimitedEnergy, shearEnergy = unlimitedEnergy; ///< A_n, A_s [J]
 	Number hardening = 0.; ///< c n_0^q: part of the normal force that hardens; 0: linear spring [N]
-	Number overlap = 0., room = 0.; ///< n_0, and how much it may grow until the force is constant [m]
-	double power = 1; ///< q [-]
+	Number overlap = 0., overlapLeft = 0.; ///< n_0, and how much it may grow until the force is constant [m]
+	double exponent = 1; ///< q [-]
 	Number strength = unlimitedEnergy; ///< F_Y [N]
 
 	/// A_n and A_s of a point without rule (5) [J], strength of an elastic one [N].
@@ -163,13 +163,13 @@ void prepareSteps(const StepInput<Number>& p, const SolverBodies& bodies, double
 		s.rebound = noRebound;
 		s.energy = lane(p.energy, i);
 		s.shearEnergy = lane(p.shearEnergy, i);
-		// Without a way to close, or a response, (7) is (2)
-		s.hardening = lane(p.room, i) > 0 && lane(column[0], i) > 0 ? lane(p.hardening, i) : 0;
+		// Without a displacement left, or a response, (7) is (2)
+		s.hardening = lane(p.overlapLeft, i) > 0 && lane(column[0], i) > 0 ? lane(p.hardening, i) : 0;
 		s.overlap = lane(p.overlap, i);
-		s.room = lane(p.room, i);
+		s.overlapLeft = lane(p.overlapLeft, i);
 		s.damping = lane(p.normalDamping, i);
-		s.power = p.power;
-		s.length = h;
+		s.exponent = p.exponent;
+		s.step = h;
 		s.strength = h * lane(p.strength, i);
 		s.bounded = s.idle = false;
 		for (int c = 0; c < 3; ++c)

@@ -35,7 +35,7 @@ struct Hardening {
 	/// middle: displacement for the dashpot, <= d [m]
 	Hardening(const PointStep& c, double d, double middle)
 	{
-		const double q = c.power, over = 1 / c.overlap, growth = d * over, stretch = 1 + growth,
+		const double q = c.exponent, over = 1 / c.overlap, growth = d * over, stretch = 1 + growth,
 		             rise = q == 1.5 ? std::sqrt(stretch) : power(stretch, q - 1);
 		force = c.hardening * (stretch * rise - 1 - q * growth);
 		slope = c.hardening * q * over * (rise - 1);
@@ -55,8 +55,8 @@ struct HardeningImpulse {
 };
 inline HardeningImpulse hardeningImpulse(const PointStep& c, double d)
 {
-	const double h = c.length, a = c.response(), closing = -h * std::min(0., c.before[0]),
-	             K = c.power * c.hardening / c.overlap;
+	const double h = c.step, a = c.response(), closing = -h * std::min(0., c.before[0]),
+	             K = c.exponent * c.hardening / c.overlap;
 	const bool exceeds = d > closing; // what the velocity before the step does not explain
 	const Hardening spring(c, d, exceeds ? (d - closing) / 2 : 0);
 	const double y = a * h * h * (K + spring.force / d), beta = y / (4 * y + 2);
@@ -64,27 +64,28 @@ inline HardeningImpulse hardeningImpulse(const PointStep& c, double d)
 		beta * h * spring.slope + spring.damping + (exceeds ? spring.dampingSlope * d / 2 : 0) };
 }
 
-/// Normal impulse of a point whose spring hardens within the step: (7). linear: p by (2) [N s]; way: closing
+/// Normal impulse of a point whose spring hardens within the step: (7). linear: p by (2) [N s]; closing: the
 /// displacement d for it, > 0 [m].
-/// In the unknown d, (7) is d + h a (1 - a M_n) more(d) = way, whose left side increases: Newton's method within
+/// In the unknown d, (7) is d + h a (1 - a M_n) more(d) = closing, whose left side increases: Newton's method within
 /// bounds.
-[[gnu::noinline]] inline double hardenedImpulse(const PointStep& c, double linear, double way)
+[[gnu::noinline]] inline double hardenedImpulse(const PointStep& c, double linear, double closing)
 {
-	const double h = c.length, a = c.response(), factor = h * a * (1 - a * c.mass[0]);
-	double low = 0, high = std::min(way, c.room), d = high;
+	const double h = c.step, a = c.response(), factor = h * a * (1 - a * c.mass[0]);
+	double low = 0, high = std::min(closing, c.overlapLeft), d = high;
 	for (int k = 0; k < hardeningSteps; ++k) {
 		const HardeningImpulse more = hardeningImpulse(c, d);
 		// The force is constant at the end
-		if (k == 0 && way - factor * more.value > c.room) return linear + (factor / (h * a)) * more.value;
-		const double excess = d + factor * more.value - way, newton = d - excess / (1 + factor * more.slope),
-		             last = d;
+		if (k == 0 && closing - factor * more.value > c.overlapLeft)
+			return linear + (factor / (h * a)) * more.value;
+		const double excess = d + factor * more.value - closing,
+		             newton = d - excess / (1 + factor * more.slope), last = d;
 		(excess > 0 ? high : low) = d;
 		const bool isInside = newton >= low && newton <= high;
 		d = isInside ? newton : (low + high) / 2;
 		// The error is less than the square of the last change, over d
 		if (isInside && (d - last) * (d - last) <= hardeningTolerance * d * d) break;
 	}
-	return linear + (way - d) / (h * a);
+	return linear + (closing - d) / (h * a);
 }
 
 /// Normal impulse (3): the least of what springs and dashpots give, (2) or (7), of what the energy (5), the impact (6)
@@ -94,8 +95,8 @@ inline HardeningImpulse hardeningImpulse(const PointStep& c, double d)
 [[gnu::always_inline]] inline double normalImpulse(PointStep& c, double un, double linear)
 {
 	const double a = c.response(), base = un - a * c.impulse[0];
-	const double way = -c.length * (base + a * linear) - hardeningShare * c.overlap;
-	double p = std::max(0., c.hardening > 0 && way > 0 ? hardenedImpulse(c, linear, way) : linear);
+	const double closing = -c.step * (base + a * linear) - hardeningShare * c.overlap;
+	double p = std::max(0., c.hardening > 0 && closing > 0 ? hardenedImpulse(c, linear, closing) : linear);
 	if (a > 0 && p * (c.before[0] + base + a * p) > 2 * c.energy) p = std::min(p, energyImpulse(c, base)); // (5)
 	c.bounded = false;
 	if (c.rebound < noRebound) { // (6)

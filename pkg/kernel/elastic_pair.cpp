@@ -58,7 +58,7 @@ namespace {
 		const double initial = elasticOverlap(law, input.pair.strength.at(record.crushed), 0,
 		        initialOverlap(law, point.overlap, approach, available), point.overlap);
 		record.crushed = std::min(record.crushed, point.overlap - initial);
-		record.excess = point.overlap - record.crushed - initial;
+		record.unloadedOverlap = point.overlap - record.crushed - initial;
 		elasticPoint(law, input, point, record);
 		if (input.form == NormalForm::Increment) record.impact = ImpactState::over();
 		record.normalStored = law.energy(initial) - law.energy(std::min(initial, approach));
@@ -82,7 +82,7 @@ namespace {
 	        const Group<Number, PointRecord>& record, NormalForm form)
 	{
 		PointSprings<Number> s;
-		s.excess = record.get(&SpringsOf::excess);
+		s.unloadedOverlap = record.get(&SpringsOf::unloadedOverlap);
 		s.crushed = record.get(&SpringsOf::crushed);
 		s.overlap = record.get(&SpringsOf::overlap);
 		s.stiffness = record.get(&SpringsOf::stiffness);
@@ -95,7 +95,7 @@ namespace {
 	[[gnu::always_inline]] inline void saveSprings(
 	        const PointSprings<Number>& s, const Group<Number, PointRecord>& record)
 	{
-		record.set(&SpringsOf::excess, s.excess);
+		record.set(&SpringsOf::unloadedOverlap, s.unloadedOverlap);
 		record.set(&SpringsOf::crushed, s.crushed);
 		record.set(&SpringsOf::overlap, s.overlap);
 		record.set(&SpringsOf::stiffness, s.stiffness);

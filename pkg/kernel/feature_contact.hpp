@@ -135,19 +135,19 @@ inline bool isReplacedByVertex(
 	const Polyhedron &coreA = pair.a.core, &coreB = pair.b.core;
 	const Edge &a = coreA.edges[id.a()], &b = coreB.edges[id.b()];
 	const auto joinsA = [&](int v) {
-		return pair.patterns.vertexEdge ? vertices.joinsA(v, id.b(), b)
-		                                : isAboveFaceOf(pair, coreB, b, pair.toB<double>(coreA.vertices[v]));
+		return pair.kinds.vertexEdge ? vertices.joinsA(v, id.b(), b)
+		                             : isAboveFaceOf(pair, coreB, b, pair.toB<double>(coreA.vertices[v]));
 	};
 	const auto joinsB = [&](int v) {
-		return pair.patterns.vertexEdge ? vertices.joinsB(v, id.a(), a)
-		                                : isAboveFaceOf(pair, coreA, a, pair.toA<double>(coreB.vertices[v]));
+		return pair.kinds.vertexEdge ? vertices.joinsB(v, id.a(), a)
+		                             : isAboveFaceOf(pair, coreA, a, pair.toA<double>(coreB.vertices[v]));
 	};
 	return (alongA <= zone && joinsA(a.tail)) || (alongA >= a.length - zone && joinsA(a.head))
 	        || (alongB <= zone && joinsB(b.tail)) || (alongB >= b.length - zone && joinsB(b.head));
 }
 
 /// Up to laneCount edges of A, each against an edge of B. The crossing must be inside both edges. Closer to an end than
-/// the flush limit across the other edge, a contact of the end's vertex is preferred; without any patterns for vertices
+/// the flush limit across the other edge, a contact of the end's vertex is preferred; without contacts of vertices
 /// above borders there is no contact there. Returns which of the edges are in contact.
 template <class Number>
 auto edgeEdgeContact(const ShapePair& pair, const FeatureId* first, size_t count, const VertexContacts& vertices,
@@ -280,7 +280,7 @@ inline bool vertexVertexContact(const ShapePair& pair, int vertexA, int vertexB,
 	        && pointPointContact(pointA, pointB, contact);
 }
 
-/// Patterns::vertexEdge, of vertices without a contact.
+/// ContactKinds::vertexEdge, of vertices without a contact.
 inline bool extraPatternContact(
         const ShapePair& pair, FeatureId id, const VertexContacts& vertices, FeatureContact<double>& contact)
 {

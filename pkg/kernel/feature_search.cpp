@@ -54,7 +54,7 @@ namespace {
 					testVertexFace({ FeatureKind::FaceVertex, int(f), int(v) }, verticesB[v],
 					        a.faces[f], pair.a.coreHalfThickness, verticesB[v].position);
 		}
-		/// Edge-edge, and the extra patterns if they are on.
+		/// Edge-edge, and the extra kinds if they are on.
 		void searchOtherKinds()
 		{
 			const Polyhedron &a = pair.a.core, &b = pair.b.core;
@@ -67,7 +67,7 @@ namespace {
 					if (const auto inRange = distance + batch.depth <= range; any(inRange))
 						testEdges(int(ea), batch, inRange);
 			}
-			if (pair.patterns.vertexEdge) searchExtraPatterns();
+			if (pair.kinds.vertexEdge) searchExtraKinds();
 		}
 
 	private:
@@ -199,8 +199,8 @@ namespace {
 			if (distance <= range) add(id, position, distance <= motion);
 		}
 
-		/// Patterns::vertexEdge.
-		void searchExtraPatterns()
+		/// ContactKinds::vertexEdge.
+		void searchExtraKinds()
 		{
 			const Polyhedron &a = pair.a.core, &b = pair.b.core;
 			for (size_t v = 0; v < a.vertices.size(); ++v)

@@ -47,18 +47,19 @@ double restitution(double ratio)
 	return exponential(-4 * ratio * over * arctangentShare((1 - ratio) * over));
 }
 
-double PowerSpring::power() const
+double PowerSpring::exponent() const
 {
 	constexpr double unit = 0x1p40;
 	return std::floor(stiffness * overlap / force * unit + 0.5) / unit;
 }
 
-double PowerSpring::energyAt(double other) const { return energy() * timber::power(other / force, 1 + 1 / power()); }
+double PowerSpring::energyAt(double other) const { return energy() * timber::power(other / force, 1 + 1 / exponent()); }
 
 /// 2 d / v int_0^1 dx / sqrt(1 - x^(q+1)) with the largest overlap d.
 double PowerSpring::duration(double mass, double speed) const
 {
-	const double s = 1 / (power() + 1), largest = overlap * timber::power(mass * speed * speed / (2 * energy()), s);
+	const double s = 1 / (exponent() + 1),
+	             largest = overlap * timber::power(mass * speed * speed / (2 * energy()), s);
 	return 2 * quarterPeriod(s) * largest / speed;
 }
 
@@ -114,7 +115,7 @@ namespace {
 	/// Velocity of separation w. [m/s]
 	double reboundOf(const PowerSpring& spring, const Touch& t)
 	{
-		const double q = spring.power(),
+		const double q = spring.exponent(),
 		             ratio = t.dampingRatio * std::sqrt(t.response * t.mass * 2 * q / (q + 1)),
 		             elastic = t.speed * restitution(ratio);
 		if (!t.strength.isLimited()) return elastic;

@@ -16,7 +16,7 @@
 /// A contact that is pressed together by more than the touch speed within the duration, or within a longer step, is a
 /// loaded one, without a bound.
 ///
-/// Symbols: a inverse effective mass [1/kg], m equivalent mass (Eq. 43) [kg], n overlap [m], q power of the law (Hertz:
+/// Symbols: a inverse effective mass [1/kg], m equivalent mass (Eq. 43) [kg], n overlap [m], q exponent of the law (Hertz:
 /// 1.5) [-].
 /// A point with the strength F_Y has the total force min(F_Y, F + C n'). The unloading from rest at the overlap d ends
 /// with e_r^1/2 times the velocity v(d) = (2 a U(d))^1/2. So does an impact that is crushed, d: the elastic overlap at
@@ -57,8 +57,8 @@ double restitution(double ratio);
 struct PowerSpring {
 	double overlap, force, stiffness; ///< > 0 [m, N, N/m]
 
-	double power() const; ///< q, without the rounding errors of force and stiffness [-]
-	double energy() const { return force * overlap / (power() + 1); } ///< [J]
+	double exponent() const; ///< q, without the rounding errors of force and stiffness [-]
+	double energy() const { return force * overlap / (exponent() + 1); } ///< [J]
 	/// Energy at that force. [J]
 	double energyAt(double other) const;
 	/// Duration of the undamped impact of a mass [kg] with a speed > 0 [m/s]. [s]
@@ -75,7 +75,7 @@ struct Touch {
 	double crushed = 0; ///< plastic overlap [m]
 };
 
-/// Velocity after an impact (3) over v(d) at the strength, d, before crushing begins. ratio: zeta_c; q: power; speed:
+/// Velocity after an impact (3) over v(d) at the strength, d, before crushing begins. ratio: zeta_c; q: exponent; speed:
 /// of closing, over v(d); rest: part of its energy that crushes beyond d, output. [-]
 double reboundAtStrength(double ratio, double q, double speed, double& rest);
 

@@ -20,7 +20,7 @@ namespace timber {
 //   2. Search the candidate features again if the pair has moved beyond the margin of the last search
 //     (feature_search.cpp).
 //   3. If the cores may overlap, find the axis of least overlap (separating_axis.cpp).
-//   4. Test the candidates: vertices against one face, or edge against edge, in SIMD batches; other patterns one by
+//   4. Test the candidates: vertices against one face, or edge against edge, in SIMD batches; other kinds one by
 //     one. Edges come last, since contacts of vertices replace crossings (feature_contact.hpp).
 //   5. Deep contact without a point as deep as the cores: add one point in the overlap region, along the axis of least
 //     overlap.
@@ -49,7 +49,7 @@ namespace {
 					return false;
 				return (p.position - next.position).squaredNorm() < limit * limit
 				        && p.normal.dot(next.normal) > 0.9
-				        && (!pair.patterns.vertexEdge
+				        && (!pair.kinds.vertexEdge
 				                || next.overlap <= p.overlap + duplicateShare * limit);
 			});
 		}
@@ -209,7 +209,7 @@ namespace {
 		}
 	}
 
-	/// Step 4, of candidates of extra patterns from `next` to `end`.
+	/// Step 4, of candidates of extra kinds from `next` to `end`.
 	void testExtraPatterns(
 	        const ShapePair& pair, const FeatureId* next, const FeatureId* end, PointCollector& points)
 	{
@@ -243,7 +243,7 @@ namespace {
 	/// deep as the cores, but for those that are deeper than half a body, or touch exactly.
 	bool lacksDepth(const ShapePair& pair, const std::vector<ContactPoint>& points)
 	{
-		if (!pair.patterns.vertexEdge) return pair.isDeep() && points.empty();
+		if (!pair.kinds.vertexEdge) return pair.isDeep() && points.empty();
 		if (points.empty() && pair.gap >= 0)
 			return pair.gap < pair.flushLimit()
 			        && coreDistance(pair.a.core, pair.b.core, pair.rotation, pair.translation)
@@ -256,18 +256,18 @@ namespace {
 } // namespace
 
 double updateManifold(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseA, const Pose& poseB,
-        const Patterns& patterns, CandidateCache& cache, std::vector<ContactPoint>& points)
+        const ContactKinds& kinds, CandidateCache& cache, std::vector<ContactPoint>& points)
 {
 	assert(isAdmissible(poseA) && isAdmissible(poseB));
 	assert(a.radius > 0 && b.radius > 0);
-	if (!cache.matches(a, b, patterns)) cache = CandidateCache(a, b, patterns);
+	if (!cache.matches(a, b, kinds)) cache = CandidateCache(a, b, kinds);
 	std::vector<ContactPoint>& before = cache.before;
 	before.swap(points);
 	const bool wasInContact = !before.empty();
 	points.clear();
 	const Mat3 rotationA = poseA.orientation.toRotationMatrix();
 	ShapePair pair { a, b, rotationA.transpose() * poseB.orientation.toRotationMatrix(),
-		rotationA.transpose() * (poseB.position - poseA.position), patterns };
+		rotationA.transpose() * (poseB.position - poseA.position), kinds };
 
 	if (!wasInContact) // 1.
 		if (const double displacement = safeDisplacement(pair, gapAlongCachedAxis(pair, cache));
@@ -280,7 +280,7 @@ double updateManifold(const RoundedPolyhedron& a, const RoundedPolyhedron& b, co
 	testCandidates(pair, cache.candidates, collector, points); // 4.
 	const FeatureId cores { FeatureKind::CoreCore, 0, 0 };
 	if (lacksDepth(pair, points)) collector.add(&cores, 1, true, coreCoreContact(pair)); // 5.
-	if (patterns.vertexEdge) linkPredecessors(a.core, b.core, before, points); // 6.
+	if (kinds.vertexEdge) linkPredecessors(a.core, b.core, before, points); // 6.
 	assert(std::is_sorted(points.begin(), points.end(),
 	        [](const ContactPoint& p, const ContactPoint& q) { return p.id < q.id; }));
 	return points.empty() ? findSeparatingFace(pair, cache) : 0; // 7.

@@ -11,7 +11,7 @@
 /// Deep contact (the cores overlap): only points with a normal near the axis of least overlap count. If there are none,
 /// or with vertex-edge contacts none as deep as the cores, a point in the overlap region is added, so that the pair is
 /// always pushed apart.
-/// Flush members have vertices exactly above the border of a face: `Patterns::flushSupports` decides these contacts.
+/// Flush members have vertices exactly above the border of a face: `ContactKinds::flushSupports` decides these contacts.
 #pragma once
 #include "polyhedron.hpp"
 #include <cassert>
@@ -60,10 +60,10 @@ struct ContactPoint {
 };
 
 /// Optional kinds of contact.
-struct Patterns {
+struct ContactKinds {
 	bool vertexEdge = false; ///< also vertex-edge and vertex-vertex contacts, which the paper ignores
 	bool flushSupports = true; ///< a vertex exactly above the border of a face is supported by the face
-	bool operator==(const Patterns& o) const
+	bool operator==(const ContactKinds& o) const
 	{
 		return vertexEdge == o.vertexEdge && flushSupports == o.flushSupports;
 	}
@@ -73,11 +73,11 @@ struct Patterns {
 /// The sum of two terms must not exceed `margin`: the displacement of B at `centre`, where the bodies are close, and
 /// the rotation of B times `regionRadius`. A slender member rocking on its end thus keeps its candidates although its
 /// far end moves a lot.
-/// The cache never changes a result: an empty one gives the same manifold. It is reset if the bodies or the patterns
+/// The cache never changes a result: an empty one gives the same manifold. It is reset if the bodies or the kinds
 /// change.
 struct CandidateCache {
 	unsigned long serialA = 0, serialB = 0; ///< of the bodies
-	Patterns patterns;
+	ContactKinds kinds;
 	std::vector<FeatureId> candidates;
 	Mat3 rotation = Mat3::Identity(); ///< of B in the frame of A, at the search
 	Vec3 centre = Vec3::Zero(), centreB = Vec3::Zero(); ///< the same point at the search, frames of A and B [m]
@@ -94,15 +94,15 @@ struct CandidateCache {
 	std::vector<FeatureId> vertexContacts;
 
 	CandidateCache() = default;
-	CandidateCache(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Patterns& p)
+	CandidateCache(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const ContactKinds& p)
 	        : serialA(a.serial)
 	        , serialB(b.serial)
-	        , patterns(p)
+	        , kinds(p)
 	{
 	}
-	bool matches(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Patterns& p) const
+	bool matches(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const ContactKinds& p) const
 	{
-		return serialA == a.serial && serialB == b.serial && patterns == p;
+		return serialA == a.serial && serialB == b.serial && kinds == p;
 	}
 	bool isSearched() const { return margin >= 0; }
 	/// Relative motion since the search, to be compared with the margin. [m]
@@ -119,6 +119,6 @@ struct CandidateCache {
 /// Returns a safe displacement: how far the bodies can move relative to each other before there can be a point; 0:
 /// unknown. [m]
 double updateManifold(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseA, const Pose& poseB,
-        const Patterns& patterns, CandidateCache& cache, std::vector<ContactPoint>& points);
+        const ContactKinds& kinds, CandidateCache& cache, std::vector<ContactPoint>& points);
 
 } // namespace timber

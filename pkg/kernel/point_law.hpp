@@ -14,9 +14,9 @@ namespace timber {
 /// p_n. It does not increase with v'. after: v' [m/s]; softness: eps [-]; returns [N s].
 inline double normalImpulseAt(PointStep& c, double after, double softness)
 {
-	const double a = c.response(), closing = -c.length * after - hardeningShare * c.overlap;
+	const double a = c.response(), closing = -c.step * after - hardeningShare * c.overlap;
 	double p = (c.bias[0] - c.mass[0] * after) / (1 - c.factor[0]);
-	if (c.hardening > 0 && closing > 0) p += hardeningImpulse(c, std::min(closing, c.room)).value;
+	if (c.hardening > 0 && closing > 0) p += hardeningImpulse(c, std::min(closing, c.overlapLeft)).value;
 	p = std::max(0., p);
 	const double sum = c.before[0] + after, soft = softness * a;
 	if (p * (sum + soft * p) > 2 * c.energy) p = std::min(p, largestShare(sum, soft, c.energy));

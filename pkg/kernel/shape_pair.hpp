@@ -16,7 +16,7 @@ struct ShapePair {
 	const RoundedPolyhedron& b;
 	Mat3 rotation;
 	Vec3 translation;
-	Patterns patterns;
+	ContactKinds kinds;
 	/// Between the cores along the axis; < 0: they overlap (deep contact); infinite if they are known to be separated
 	/// [m]
 	double gap = std::numeric_limits<double>::infinity();
@@ -29,20 +29,20 @@ struct ShapePair {
 	double contactDistance() const { return a.radius + b.radius; }
 	double depthLimit() const { return std::min(a.coreHalfThickness, b.coreHalfThickness); } ///< [m]
 	/// A projection beyond a side of a face by less than this still belongs to the face. [m]
-	double sideTolerance() const { return patterns.flushSupports ? flushLimit() : -flushLimit(); }
+	double sideTolerance() const { return kinds.flushSupports ? flushLimit() : -flushLimit(); }
 	/// The flush tolerance, for small bodies a share of their contact distance. [m]
 	double flushLimit() const { return std::min(flushTolerance, flushShare * contactDistance()); }
 	/// Whether vertices exactly above borders of faces have contacts.
-	bool hasBorderContacts() const { return patterns.flushSupports || patterns.vertexEdge; }
+	bool hasBorderContacts() const { return kinds.flushSupports || kinds.vertexEdge; }
 	/// A vertex inside the border of a face by less than this is in the wedge of the border's edge. [m] Faces support
 	/// vertices inside their border by the flush limit if flushSupports is off.
-	double wedgeTolerance() const { return patterns.flushSupports ? roundingLength : 2 * flushLimit(); }
+	double wedgeTolerance() const { return kinds.flushSupports ? roundingLength : 2 * flushLimit(); }
 	/// Slope by which the edges of a vertex in contact may approach the other body. [-] The crossing of such an edge is
 	/// within the flush limit from the vertex.
 	double slopeTolerance() const { return flushLimit() / contactDistance(); }
 	/// Edges with a smaller sine of their angle have no crossing point. [-] With vertex-edge contacts the ends of nearly
 	/// parallel edges carry what the crossing does not.
-	double crossingLimit() const { return patterns.vertexEdge ? smallestSine : parallelSine; }
+	double crossingLimit() const { return kinds.vertexEdge ? smallestSine : parallelSine; }
 	template <class Number> Vec3Of<Number> toB(const Vec3Of<Number>& x) const
 	{
 		return broadcast<Number>(rotation).transpose() * (x - broadcast<Number>(translation));

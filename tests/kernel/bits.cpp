@@ -128,10 +128,10 @@ private:
 	void touch(int i, int k, ContactSolver& solver, std::vector<std::pair<Pair*, PairProperties>>& listed)
 	{
 		Pair& pair = pairs[{ i, k }];
-		const Patterns patterns { true, true };
-		if (!pair.cache.matches(stones[i].shape, stones[k].shape, patterns))
-			pair.cache = { stones[i].shape, stones[k].shape, patterns };
-		updateManifold(stones[i].shape, stones[k].shape, poses[i], poses[k], patterns, pair.cache, pair.points);
+		const ContactKinds kinds { true, true };
+		if (!pair.cache.matches(stones[i].shape, stones[k].shape, kinds))
+			pair.cache = { stones[i].shape, stones[k].shape, kinds };
+		updateManifold(stones[i].shape, stones[k].shape, poses[i], poses[k], kinds, pair.cache, pair.points);
 		if (pair.points.empty()) return pair.records.clear();
 		const SolverBody &a = bodies[i], &b = bodies[k];
 		PairProperties properties { 1 / pairInverseMass(a, b), 0.5, 0.4, 0.01, 0.2 };

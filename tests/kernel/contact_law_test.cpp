@@ -268,14 +268,14 @@ TEST(NewPoint, ApproachIsBoundedByItsEnergy)
 TEST(NewPoint, ExcessShrinksWithTheOverlap)
 {
 	Spring<HertzLaw> spring { timberLaw, pairOf(0.4) };
-	spring.state.excess = 5e-3;
+	spring.state.unloadedOverlap = 5e-3;
 	spring.step(5e-3, 0, Vec3::Zero());
 	EXPECT_EQ(spring.state.normalForce, 0);
 	spring.step(5.5e-3, 0, Vec3::Zero());
 	EXPECT_NEAR(spring.state.overlap, 5e-4, 1e-17);
 	spring.step(2e-3, 0, Vec3::Zero()); // the excess shrinks with the overlap
 	EXPECT_EQ(spring.state.normalForce, 0);
-	EXPECT_EQ(spring.state.excess, 2e-3);
+	EXPECT_EQ(spring.state.unloadedOverlap, 2e-3);
 	spring.step(3e-3, 0, Vec3::Zero());
 	EXPECT_NEAR(spring.state.overlap, 1e-3, 1e-17);
 }

@@ -25,9 +25,9 @@ PointStep randomPoint(Random& random)
 	p.energy = oneOf(random, 3) ? 0 : F * n * logUniform(random, 0.01, 100);
 	p.shearEnergy = oneOf(random, 3) ? 0 : 0.1 * F * n * logUniform(random, 0.01, 100);
 	p.hardening = oneOf(random, 2) ? F : 0;
-	p.power = 1.5;
+	p.exponent = 1.5;
 	p.overlap = n;
-	p.room = logUniform(random, 1e-7, 1e-1);
+	p.overlapLeft = logUniform(random, 1e-7, 1e-1);
 	const InverseRootMass rootA(a), rootB(b);
 	PointStep step {};
 	prepareSteps<double>(p, SolverBodies { a, b, rootA, rootB }, h, 1, [&](size_t) -> PointStep& { return step; });

@@ -47,7 +47,7 @@ double step(const std::vector<ContactPoint>& points, std::vector<PointRecord>& r
 void expectOverlap(const PointRecord& record, double effective, double total)
 {
 	EXPECT_NEAR(record.overlap, effective, rounding * overlap);
-	EXPECT_NEAR(record.excess, total - effective, rounding * overlap);
+	EXPECT_NEAR(record.unloadedOverlap, total - effective, rounding * overlap);
 }
 
 /// A body of that mass [kg] on a fixed one, with one point of the overlap, moves with the speed of separation [m/s] in
@@ -225,7 +225,7 @@ TEST(Separation, EndsForceAndImpact)
 			        { pointOf(vertex, at) }, records);
 		};
 		place(overlap, overlap / 2 / h); // half of the overlap is an excess
-		EXPECT_GT(records[0].excess, 0);
+		EXPECT_GT(records[0].unloadedOverlap, 0);
 		place(1.5 * overlap, 0);
 		EXPECT_GT(records[0].normalForce, 0);
 		place(0.4 * overlap, 0); // within the excess

@@ -56,13 +56,13 @@ TEST(Stiff, ConvergenceIsJudgedByLightMembers)
 
 /// Normal impulse of one point of a hardening contact between these bodies. [N s]
 namespace {
-double hardenedPoint(std::vector<SolverBody> bodies, double room, double hardening)
+double hardenedPoint(std::vector<SolverBody> bodies, double overlapLeft, double hardening)
 {
 	HeapPoint p = central(1e3, 2e4);
 	p.normalStiffness = 3e7;
 	p.overlap = 1e-3;
-	p.power = 1.5;
-	p.room = room;
+	p.exponent = 1.5;
+	p.overlapLeft = overlapLeft;
 	p.hardening = hardening;
 	ContactSolver solver;
 	solver.begin(bodies, 1e-3, 100);

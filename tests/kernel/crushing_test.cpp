@@ -70,7 +70,7 @@ public:
 	        : h(h_)
 	        , speed(speed_)
 	        , depth((share - 1) * speed * h)
-	        , pair { mass, 0.5, 0.4, 1, ratio, HertzLaw::power, strength }
+	        , pair { mass, 0.5, 0.4, 1, ratio, HertzLaw::exponent, strength }
 	{
 		for (SolverBody& b : bodies)
 			b = { Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), 0, Mat3::Zero(), Vec3::Zero() };
@@ -241,7 +241,7 @@ TEST(Crushing, HoldsForPointsThatBeginBesideADent)
 	        { { vertex, {}, none, Vec3::UnitZ(), p.at }, { edge, {}, none, Vec3::UnitZ(), overlap } }, p.records);
 	EXPECT_EQ(p.crushed(), c);
 	EXPECT_EQ(p.records.at(1).crushed, overlap);
-	EXPECT_EQ(p.records.at(1).excess, 0);
+	EXPECT_EQ(p.records.at(1).unloadedOverlap, 0);
 	EXPECT_EQ(p.records.at(1).normalForce, 0);
 }
 

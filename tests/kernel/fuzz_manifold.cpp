@@ -169,7 +169,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size)
 	try {
 		const RoundedPolyhedron a = readBody(bytes), b = readBody(bytes);
 		const int switches = bytes.byte();
-		const Patterns patterns { (switches & 1) != 0, (switches & 2) != 0 };
+		const ContactKinds kinds { (switches & 1) != 0, (switches & 2) != 0 };
 		const Pose poseA { Vec3::Zero(), bytes.rotation() };
 		CandidateCache cache;
 		std::vector<ContactPoint> points, fresh;
@@ -177,15 +177,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size)
 			const Pose poseB { bytes.vector() * (a.boundingRadius + b.boundingRadius), bytes.rotation() };
 			// Placements are checked by the caller
 			if (!poseB.position.allFinite() || poseB.position.norm() > 1e6) return 0;
-			updateManifold(a, b, poseA, poseB, patterns, cache, points);
+			updateManifold(a, b, poseA, poseB, kinds, cache, points);
 			check(a, b, poseA, poseB, points);
-			const double gap = updateManifold(a, b, poseA, poseB, patterns, cache, points);
+			const double gap = updateManifold(a, b, poseA, poseB, kinds, cache, points);
 			const Pose nearer { poseB.position - 0.999 * gap * poseB.position.normalized(),
 				poseB.orientation };
-			require(gap == 0 || shapes::contacts(a, b, poseA, nearer, patterns).empty(),
+			require(gap == 0 || shapes::contacts(a, b, poseA, nearer, kinds).empty(),
 			        "a contact within the gap that was promised");
 			CandidateCache empty;
-			updateManifold(a, b, poseA, poseB, patterns, empty, fresh);
+			updateManifold(a, b, poseA, poseB, kinds, empty, fresh);
 			require(points.size() == fresh.size(), "the cache changes the result");
 		}
 	} catch (const PolyhedronError&) {

@@ -49,7 +49,7 @@ private:
 
 /// Both bodies move; returns the number of steps with contact.
 int follow(const RoundedPolyhedron& a, const RoundedPolyhedron& b, double width, double touching,
-        const Patterns& patterns, unsigned seed, int steps)
+        const ContactKinds& kinds, unsigned seed, int steps)
 {
 	Walk walk(seed, width, touching);
 	Random random(seed + 1);
@@ -61,8 +61,8 @@ int follow(const RoundedPolyhedron& a, const RoundedPolyhedron& b, double width,
 	for (int step = 0; step < steps; ++step) {
 		const Pose poseA = carried({}, about({ 1, 2, 3 }, 1e-3 * step) * turn, place),
 		           poseB = carried(walk.next(), about({ 1, 2, 3 }, 1e-3 * step) * turn, place);
-		updateManifold(a, b, poseA, poseB, patterns, cache, points);
-		EXPECT_TRUE(identical(points, contacts(a, b, poseA, poseB, patterns)))
+		updateManifold(a, b, poseA, poseB, kinds, cache, points);
+		EXPECT_TRUE(identical(points, contacts(a, b, poseA, poseB, kinds)))
 		        << "seed " << seed << " step " << step;
 		inContact += !points.empty();
 	}
@@ -71,14 +71,14 @@ int follow(const RoundedPolyhedron& a, const RoundedPolyhedron& b, double width,
 
 /// Points after a motion within the margin, from the candidates before it; compared with those from an empty cache.
 std::vector<ContactPoint> afterMove(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& before,
-        const Pose& after, const Patterns& patterns = {})
+        const Pose& after, const ContactKinds& kinds = {})
 {
 	CandidateCache cache;
 	std::vector<ContactPoint> points;
-	updateManifold(a, b, {}, before, patterns, cache, points);
-	updateManifold(a, b, {}, after, patterns, cache, points);
+	updateManifold(a, b, {}, before, kinds, cache, points);
+	updateManifold(a, b, {}, after, kinds, cache, points);
 	EXPECT_EQ(cache.updates, 1); // no second search
-	EXPECT_TRUE(identical(points, contacts(a, b, {}, after, patterns)));
+	EXPECT_TRUE(identical(points, contacts(a, b, {}, after, kinds)));
 	return points;
 }
 
@@ -308,18 +308,19 @@ TEST(CandidateCache, NonFinitePose)
 	EXPECT_EQ(points.size(), 4u);
 }
 
-/// The cache is reset when the bodies or the patterns change.
+/// The cache is reset when the bodies or the kinds change.
 TEST(CandidateCache, ResetForOtherBodiesOrPatterns)
 {
 	const auto cube = roundedBox({ 1, 1, 1 }), prism = rounded(hexagonalPrismVertices(0.5, 1), 0.02);
 	const Pose above { { 0, 0, 0.999 }, Quat::Identity() };
 	CandidateCache cache;
 	std::vector<ContactPoint> points;
-	const auto expectFresh = [&](const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Patterns& patterns) {
-		updateManifold(a, b, {}, above, patterns, cache, points);
-		EXPECT_TRUE(identical(points, contacts(a, b, {}, above, patterns)));
-		EXPECT_FALSE(points.empty());
-	};
+	const auto expectFresh
+	        = [&](const RoundedPolyhedron& a, const RoundedPolyhedron& b, const ContactKinds& kinds) {
+		          updateManifold(a, b, {}, above, kinds, cache, points);
+		          EXPECT_TRUE(identical(points, contacts(a, b, {}, above, kinds)));
+		          EXPECT_FALSE(points.empty());
+	          };
 	expectFresh(cube, cube, {});
 	expectFresh(cube, prism, {});
 	expectFresh(cube, cube, {});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The patterns of contact are complete: with vertex-edge contacts some point is always as deep as the bodies overlap,
+/// The kinds of contact are complete: with vertex-edge contacts some point is always as deep as the bodies overlap,
 /// r_A + r_B - distance of the cores, and none is deeper. The distance comes from an independent program
 /// (least_norm.hpp).
 #include "least_norm.hpp"
@@ -16,7 +16,7 @@ using namespace timber::shapes;
 
 namespace {
 
-const Patterns all { true, true };
+const ContactKinds all { true, true };
 const int trials = std::getenv("TRIALS") ? std::atoi(std::getenv("TRIALS")) : 600; ///< of each kind
 
 double distanceOf(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseB)
@@ -48,10 +48,10 @@ struct Tally {
 
 /// A is at the origin.
 void expectComplete(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseB, Tally& tally,
-        const Patterns& patterns = all)
+        const ContactKinds& kinds = all)
 {
 	const double touch = a.radius + b.radius, distance = distanceOf(a, b, poseB);
-	const auto points = contacts(a, b, {}, poseB, patterns);
+	const auto points = contacts(a, b, {}, poseB, kinds);
 	if (distance <= 1e-9) { // the cores overlap: the depth is that of the axis of least overlap
 		Vec3 axis;
 		const double gap = coreGap(a.core, b.core, poseB.orientation.toRotationMatrix(), poseB.position, axis);

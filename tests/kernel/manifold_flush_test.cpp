@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Flush members: vertices lie exactly above borders of faces. Patterns::flushSupports decides these contacts, not
+/// Flush members: vertices lie exactly above borders of faces. ContactKinds::flushSupports decides these contacts, not
 /// rounding.
 #include "shapes.hpp"
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@ using namespace timber::shapes;
 namespace {
 
 constexpr double press = 1e-3; ///< overlap of the resting pairs [m]
-const Patterns supported { false, true }, unsupported { false, false };
+const ContactKinds supported { false, true }, unsupported { false, false };
 
 /// A column of the beam's width stands on the beam: its four vertices are exactly above two edges of the beam.
 struct FlushColumn {
@@ -81,8 +81,8 @@ TEST(FlushColumn, SlidAcrossTheBorder)
 		EXPECT_EQ(contacts(pair.beam, pair.column, {}, pair.onBeam(slide), unsupported).size(), 0u);
 	}
 	for (const double slide : { 1.1e-4, 1e-3, 1e-2 })
-		for (const Patterns& patterns : { supported, unsupported }) {
-			const auto points = contacts(pair.beam, pair.column, {}, pair.onBeam(slide), patterns);
+		for (const ContactKinds& kinds : { supported, unsupported }) {
+			const auto points = contacts(pair.beam, pair.column, {}, pair.onBeam(slide), kinds);
 			EXPECT_EQ(count(points, FeatureKind::FaceVertex), 2) << slide;
 			EXPECT_EQ(count(points, FeatureKind::EdgeEdge), 2) << slide;
 			EXPECT_EQ(points.size(), 4u);
@@ -107,7 +107,7 @@ TEST(CoincidentVertices, StackOfEqualBoxes)
 	}
 }
 
-/// Without flushSupports, the extra patterns give the same four corners, once each.
+/// Without flushSupports, the extra kinds give the same four corners, once each.
 TEST(CoincidentVertices, ExtraPatternsCountEachCornerOnce)
 {
 	const auto cube = roundedBox({ 1, 1, 1 });

@@ -146,7 +146,7 @@ TEST(EdgeOnEdge, CrossedAtNinetyAndThirtyDegrees)
 	}
 }
 
-/// The paper ignores parallel edges; Patterns::vertexEdge adds the vertices that lie on an edge.
+/// The paper ignores parallel edges; ContactKinds::vertexEdge adds the vertices that lie on an edge.
 TEST(EdgeOnEdge, ParallelNeedsTheVertexEdgePattern)
 {
 	const auto lower = roundedBox({ 2, 0.2, 0.2 }), upper = roundedBox({ 1, 0.2, 0.2 });
@@ -154,7 +154,7 @@ TEST(EdgeOnEdge, ParallelNeedsTheVertexEdgePattern)
 	const Quat onEdge = about({ 1, 0, 0 }, M_PI / 4);
 	const Pose below { { 0, 0, 0 }, onEdge }, above { { 0, 0, height }, onEdge };
 	EXPECT_TRUE(contacts(lower, upper, below, above).empty());
-	const Patterns both { true, true };
+	const ContactKinds both { true, true };
 	auto points = contacts(lower, upper, below, above, both);
 	EXPECT_EQ(count(points, FeatureKind::EdgeVertex), 2);
 	expectPositions(points, { { 0.48, 0, height / 2 }, { -0.48, 0, height / 2 } });
@@ -177,7 +177,7 @@ TEST(CornerOnFace, OnePoint)
 		expectPoint(p, Vec3::UnitZ(), press);
 }
 
-/// Corner on corner exists only with the extra patterns.
+/// Corner on corner exists only with the extra kinds.
 TEST(CornerOnCorner, NeedsTheVertexVertexPattern)
 {
 	const auto cube = roundedBox({ 0.4, 0.4, 0.4 });

@@ -135,15 +135,15 @@ TEST(RandomPairs, CacheHoldsNoResult)
 	const auto bodies = randomBodies(random, 100, refused);
 	for (int walk = 0; walk < 150; ++walk) {
 		const auto &a = bodies[random() % bodies.size()], &b = bodies[random() % bodies.size()];
-		const Patterns patterns { walk % 2 == 0, walk % 3 != 0 };
+		const ContactKinds kinds { walk % 2 == 0, walk % 3 != 0 };
 		Pose poseB { a.core.vertices[0] + b.boundingRadius * randomDirection(random), randomRotation(random) };
 		CandidateCache cache;
 		std::vector<ContactPoint> points;
 		for (int step = 0; step < 40; ++step) {
 			poseB.position += 0.02 * std::min(a.boundingRadius, b.boundingRadius) * randomDirection(random);
 			poseB.orientation = (about(randomDirection(random), 0.02) * poseB.orientation).normalized();
-			updateManifold(a, b, {}, poseB, patterns, cache, points);
-			const auto fresh = contacts(a, b, {}, poseB, patterns);
+			updateManifold(a, b, {}, poseB, kinds, cache, points);
+			const auto fresh = contacts(a, b, {}, poseB, kinds);
 			bool same = points.size() == fresh.size();
 			for (size_t k = 0; same && k < points.size(); ++k)
 				same = points[k].id == fresh[k].id && points[k].overlap == fresh[k].overlap;
@@ -164,25 +164,25 @@ TEST(RandomPairs, SafeDisplacement)
 	const auto bodies = randomBodies(random, 100, refused);
 	for (int trial = 0; trial < 4000; ++trial) {
 		const auto &a = bodies[random() % bodies.size()], &b = bodies[random() % bodies.size()];
-		const Patterns patterns { trial % 2 == 0, trial % 3 != 0 };
+		const ContactKinds kinds { trial % 2 == 0, trial % 3 != 0 };
 		const Vec3 direction = randomDirection(random);
 		const Pose poseB { (a.boundingRadius + b.boundingRadius) * uniform(random, 0.3, 1.2) * direction,
 			randomRotation(random) };
 		CandidateCache cache;
 		std::vector<ContactPoint> points;
-		updateManifold(a, b, {}, poseB, patterns, cache, points); // finds the axis
-		const double gap = updateManifold(a, b, {}, poseB, patterns, cache, points);
+		updateManifold(a, b, {}, poseB, kinds, cache, points); // finds the axis
+		const double gap = updateManifold(a, b, {}, poseB, kinds, cache, points);
 		if (gap == 0) continue;
 		++separated;
 		const Quat turn = about(randomDirection(random), uniform(random, 0, 0.5) * gap / b.boundingRadius);
 		const double left = gap - rotationDisplacement(turn, b.halfExtents);
 		ASSERT_GE(left, 0);
 		EXPECT_TRUE(contacts(
-		        a, b, {}, { poseB.position - 0.999 * left * direction, poseB.orientation * turn }, patterns)
+		        a, b, {}, { poseB.position - 0.999 * left * direction, poseB.orientation * turn }, kinds)
 		                    .empty())
 		        << trial;
 		const double further = gap + 4 * flushTolerance + 0.1 * (a.radius + b.radius);
-		beyond += !contacts(a, b, {}, { poseB.position - further * cache.axis, poseB.orientation }, patterns)
+		beyond += !contacts(a, b, {}, { poseB.position - further * cache.axis, poseB.orientation }, kinds)
 		                   .empty();
 	}
 	EXPECT_GT(separated, 1000);

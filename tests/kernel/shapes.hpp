@@ -163,11 +163,11 @@ inline Pose carried(const Pose& pose, const Quat& rotation, const Vec3& translat
 
 /// Contact points from an empty cache.
 inline std::vector<ContactPoint> contacts(const RoundedPolyhedron& a, const RoundedPolyhedron& b, const Pose& poseA,
-        const Pose& poseB, const Patterns& patterns = {})
+        const Pose& poseB, const ContactKinds& kinds = {})
 {
 	CandidateCache cache;
 	std::vector<ContactPoint> points;
-	updateManifold(a, b, poseA, poseB, patterns, cache, points);
+	updateManifold(a, b, poseA, poseB, kinds, cache, points);
 	return points;
 }
 

@@ -38,7 +38,7 @@ struct MovingPair {
 			        randomDirection(random), std::pow(10, uniform(random, -9, -2)) });
 			PointRecord s;
 			s.id = points[k].id;
-			s.excess = k % 3 == 0 ? uniform(random, 0, 1) * points[k].overlap : 0;
+			s.unloadedOverlap = k % 3 == 0 ? uniform(random, 0, 1) * points[k].overlap : 0;
 			s.overlap = std::pow(10, uniform(random, -9, -2.4));
 			s.stiffness = k % 5 == 4 ? 0 : law.stiffness(s.overlap);
 			s.normalForce = law.force(s.overlap);
@@ -64,7 +64,7 @@ struct MovingPair {
 
 void expectSame(const PointRecord& a, const PointRecord& b)
 {
-	EXPECT_EQ(a.excess, b.excess);
+	EXPECT_EQ(a.unloadedOverlap, b.unloadedOverlap);
 	EXPECT_EQ(a.overlap, b.overlap);
 	EXPECT_EQ(a.stiffness, b.stiffness);
 	EXPECT_EQ(a.normalForce, b.normalForce);
@@ -152,7 +152,7 @@ TEST(LanesOfAPair, StepsAreThoseOfEachPoint)
 						EXPECT_EQ((u.*quad)[c], (v.*quad)[c]) << seed;
 				}
 				for (const auto member :
-				        { &S::friction, &S::energy, &S::shearEnergy, &S::damping, &S::length })
+				        { &S::friction, &S::energy, &S::shearEnergy, &S::damping, &S::step })
 					EXPECT_EQ(u.*member, v.*member) << seed;
 			}
 		}

@@ -18,8 +18,8 @@ PointStep randomPoint(Random& random)
 	PointStep c {};
 	const double a = 1 / logUniform(random, 1e-3, 1e4), h = logUniform(random, 1e-6, 1e-3),
 	             n = logUniform(random, 1e-9, 1e-2);
-	c.power = oneOf(random, 3) ? 1 : oneOf(random, 2) ? 1.5 : 2;
-	const double K = logUniform(random, 1e-4, 1e6) / (a * h * h), F = K * n / c.power,
+	c.exponent = oneOf(random, 3) ? 1 : oneOf(random, 2) ? 1.5 : 2;
+	const double K = logUniform(random, 1e-4, 1e6) / (a * h * h), F = K * n / c.exponent,
 	             C = uniform(random, 0, 2) * std::sqrt(K / a);
 	const double x = a * h * C, theta = 0.5 + x / (12 + 2 * x), y = a * h * h * K, beta = y / (4 * y + 2);
 	const double D = theta * h * C + beta * h * h * K, Q = beta * h * h * K - (1 - theta) * h * C,
@@ -35,11 +35,11 @@ PointStep randomPoint(Random& random)
 	        : oneOf(random, 3)  ? std::numeric_limits<double>::infinity()
 	                            : logUniform(random, 1e-6, 10) * F * n;
 	c.rebound = oneOf(random, 2) ? noRebound : uniform(random, 0, 1) * std::abs(c.before[0]);
-	c.hardening = c.power > 1 ? F : 0;
+	c.hardening = c.exponent > 1 ? F : 0;
 	c.overlap = n;
-	c.room = logUniform(random, 1e-9, 1e-1);
+	c.overlapLeft = logUniform(random, 1e-9, 1e-1);
 	c.damping = C;
-	c.length = h;
+	c.step = h;
 	return c;
 }
 
@@ -66,8 +66,8 @@ TEST(Visit, ImpulseFallsContinuouslyWithTheVelocity)
 			const double next = base
 			        + scale * (oneOf(random, 2) ? uniform(random, 0, 0.3) : logUniform(random, 1e-9, 1e-2));
 			const double now = impulseAt(c, next, 0), error = 1e-5 * (p + std::abs(base) / a);
-			ASSERT_LE(now, p + error) << trial << " power " << c.power;
-			ASSERT_GE(now, p - (next - base) / a - error) << trial << " power " << c.power;
+			ASSERT_LE(now, p + error) << trial << " power " << c.exponent;
+			ASSERT_GE(now, p - (next - base) / a - error) << trial << " power " << c.exponent;
 			base = next;
 			p = now;
 		}
@@ -84,10 +84,10 @@ TEST(Visit, HardensAsTheLaw)
 		for (const double d : { 1e-6, 1e-3, 0.1 }) {
 			PointStep c {};
 			const double stiffness = k * (1 + 2 * n / depth);
-			c.power = 2;
+			c.exponent = 2;
 			c.overlap = n;
 			// As contact_pair.cpp takes it from force and stiffness
-			c.hardening = (stiffness * n - force(n)) / (c.power - 1);
+			c.hardening = (stiffness * n - force(n)) / (c.exponent - 1);
 			const Hardening spring(c, d, 0);
 			EXPECT_NEAR(spring.force, force(n + d) - force(n) - stiffness * d, 1e-9 * force(n + d));
 			EXPECT_NEAR(spring.slope, k * (1 + 2 * (n + d) / depth) - stiffness,
