@@ -13,7 +13,6 @@ from yade_timber.scene import record
 from yade_timber.scene.engines import find_engine
 
 from ..base.json_types import decode, encode
-from ..motion import GroundMotion, displacement
 from ..recording import frames
 from ..recording.damage import SIDES, DamageSurvey, Level, State
 from ..recording.events import Collapse, EventLog, FirstBreak, OwnWeight, StructureFallen, Tilt
@@ -84,12 +83,11 @@ def describe_levels(model):
 
 
 def describe_motion():
-    """frames.Motion of the scene's ground motion, or None."""
+    """frames.Motion of the scene's ground motion without its displacement, or None."""
     engine = find_engine(yw.GroundMotionEngine)
     if engine is None:
         return None
-    applied = GroundMotion(engine.step, engine.scale * np.array(engine.acceleration))
-    return frames.Motion(applied.dt, engine.start, applied.acceleration, displacement(applied))
+    return frames.Motion(engine.step, engine.start, engine.scale * np.array([*map(tuple, engine.acceleration)]))
 
 
 def versions():
@@ -170,9 +168,9 @@ class Observer:
         self._past = [(O.time, encode(self.judge.structures))]
         self.modes = decode(ModesAt | None, progress["modes"]) if progress else None
         self.upright = progress["upright"] if progress else (0.0, [])
-        motion = describe_motion()
-        self.shaking = motion and motion.first(HARMFUL)
-        self.spent = motion.last(SPENT) if motion else 0.0
+        self.motion = describe_motion()
+        self.shaking = self.motion and self.motion.first(HARMFUL)
+        self.spent = self.motion.last(SPENT) if self.motion else 0.0
         self.at_rest = progress["at_rest"] if progress else None  # since when the wreck is [s]
 
     def progress(self):
