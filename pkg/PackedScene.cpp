@@ -5,12 +5,6 @@
 namespace yade {
 
 namespace {
-	template <class T> boost::python::object bytes(const std::vector<T>& values)
-	{
-		return boost::python::object(boost::python::handle<>(PyBytes_FromStringAndSize(
-		        reinterpret_cast<const char*>(values.data()), Py_ssize_t(values.size() * sizeof(T)))));
-	}
-
 	void append(std::vector<float>& to, const Vector3r& v)
 	{
 		to.insert(to.end(), { float(v.x()), float(v.y()), float(v.z()) });

@@ -5,6 +5,12 @@
 
 namespace yade {
 
+template <class T> boost::python::object bytes(const std::vector<T>& values)
+{
+	return boost::python::object(boost::python::handle<>(PyBytes_FromStringAndSize(
+	        reinterpret_cast<const char*>(values.data()), Py_ssize_t(values.size() * sizeof(T)))));
+}
+
 /// (positions, orientations) of all bodies: bytes of float32 (n, 3) [m] and (n, 4) w, x, y, z [-]; NaN where a body was
 /// erased.
 boost::python::tuple packedPlacements();

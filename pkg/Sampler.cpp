@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <Sampler.hpp>
 #include <EnergyBalance.hpp>
+#include <PackedScene.hpp>
 #include <bodies.hpp>
 #include <sampling.hpp>
 #include <validation.hpp>
@@ -72,6 +73,22 @@ boost::python::list Sampler::pyColumns() const
 		for (const auto& [name, unit] : groupColumns)
 			names.append(name + std::to_string(group) + unit);
 	return names;
+}
+
+boost::python::tuple Sampler::pyTake()
+{
+	const boost::python::tuple taken = boost::python::make_tuple(bytes(rows), bytes(axes));
+	rows.clear();
+	axes.clear();
+	return taken;
+}
+
+boost::python::object Sampler::pyPeaks() const
+{
+	std::vector<Real> all;
+	for (const vector<Real>* values : { &load, &pull, &shear, &opening })
+		all.insert(all.end(), values->begin(), values->end());
+	return bytes(all);
 }
 
 void Sampler::recordRow()

@@ -47,9 +47,13 @@ public:
 			"north, up; NaN for a member without a joint that has a spring left. [-]")),
 		,
 		.def("columns", &Sampler::pyColumns, "Names of the columns of rows, with units. [-]")
+		.def("take", &Sampler::pyTake, "Takes the samples out: rows and axes as bytes of float64. [-]")
+		.def("peaks", &Sampler::pyPeaks, "load, pull, shear and opening, one after the other, as bytes of float64. [-]")
 	);
 	// clang-format on
 	boost::python::list pyColumns() const;
+	boost::python::tuple pyTake();
+	boost::python::object pyPeaks() const;
 };
 REGISTER_SERIALIZABLE(Sampler);
 

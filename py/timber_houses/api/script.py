@@ -5,6 +5,7 @@ ensemble of processes; `main_requested` does a run of such processes.
 With YADE's `-x`, or without a terminal, the run is completed and its results are written. Otherwise it starts in the
 background, and the user has the prompt. Most modules are imported inside `_launch`, so that Ctrl-C during their import
 ends in a line, too."""
+import gc
 import signal
 import sys
 
@@ -67,6 +68,7 @@ def _launch(read, argv, note=lambda fault: None):
         with deferred_interrupt():
             if not ports.has_prompt():
                 ports.close_servers()
+            gc.freeze()  # modules live on: not searching them for cycles saves 0.15 s of a start
             options = read(cli, argv)
             scenario = planned(options)
         return _run(session, ports.has_prompt(), scenario, options)

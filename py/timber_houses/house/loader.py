@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """House files -> tables. `extends` merges a file into the one that it extends: a file beside it or a shipped one."""
 import warnings
+from functools import lru_cache
 from pathlib import Path
 
 from ..base.input_file import is_file, read_bytes, shown
 from . import btlx
 from .errors import HouseError
 from .limits import MAX_FILE_SIZE, MAX_FILES, MAX_NODES
-from .parser import Items, Table, house_text, parse_table, plain
+from .parser import Items, Table, copied, house_text, parse_table, plain
 
 COMMON = ("base", "paper", "plated", "frame", "cad")
 """Shipped files that houses extend: materials and joints; frame of the paper's houses; joints with metal plates; joints
@@ -16,6 +17,7 @@ BTLX = ".btlx"
 SUFFIXES = (".yaml", ".yml", BTLX)  # of house files that another file names
 ADDS = "+"  # ending of a key whose list is added to the inherited one
 SHIPPED = Path(__file__).resolve().parents[1] / "data" / "houses"
+KEPT = 64  # number of files whose tables are kept: a run asks for its house several times, a study for variants. [-]
 
 
 def load_table(path):
@@ -23,20 +25,13 @@ def load_table(path):
     *files, (_, table) = _chain(Path(path))
     for file, change in reversed(files):
         table = merge(table, change, quiet=file.parent == SHIPPED)
-    return table
-
-
-_known_chains: dict = {}
-"""{house file: [(file, content)] of its chain}: studies ask for the same chains thousands of times."""
+    table.pop("extends", None)
+    return copied(table)
 
 
 def house_files(path):
     """The files that a house file consists of: itself, then the files that it extends. Raises HouseError."""
-    path = Path(path)
-    chain = _known_chains.get(path)
-    if chain is None or any(not is_file(file) or _content(file) != known for file, known in chain):
-        chain = _known_chains[path] = [(file, _content(file)) for file, _ in _chain(path)]
-    return [file for file, _ in chain]
+    return [file for file, _ in _chain(Path(path))]
 
 
 def _chain(path):
@@ -49,29 +44,35 @@ def _chain(path):
                              f" {' -> '.join(file.name for file in files)}; remove one 'extends'")
         if len(links) == MAX_FILES:
             raise HouseError(f"{where}: extends: a chain of more than {MAX_FILES} files; merge some of them")
-        table, nodes = _table(path, nodes_left)
+        table, nodes = _table(_content(path), path, nodes_left)
         links.append((path, table))
         nodes_left, where = nodes_left - nodes, table.at("extends")
         path = _extended(path, table)
     return links
 
 
-def _table(path, nodes_left):
+@lru_cache(maxsize=KEPT)
+def _table(content, path, nodes_left):
+    """(table, number of YAML values) of the content of a file; others share the table."""
     if path.suffix.lower() == BTLX:
-        return btlx.btlx_table(_content(path), path.name), 0
-    return parse_table(text_of(path), path.name, nodes_left)
+        return btlx.btlx_table(content, path.name), 0
+    return parse_table(_text(content, path), path.name, nodes_left)
 
 
 def btlx_text(path):
     """YAML of a house file of what is read of a BTLx file. Raises HouseError."""
     if path.suffix.lower() != BTLX:
         raise HouseError(f"{shown(str(path))}: is no BTLx file; its name must end in {BTLX}")
-    return house_text(plain(_table(path, 0)[0]), in_lines=True)
+    return house_text(plain(_table(_content(path), path, 0)[0]), in_lines=True)
 
 
 def text_of(path):
+    return _text(_content(path), path)
+
+
+def _text(content, path):
     try:
-        return _content(path).decode("utf-8")
+        return content.decode("utf-8")
     except UnicodeDecodeError:
         raise HouseError(f"{path}: cannot be read: not UTF-8 text; save it as UTF-8") from None
 
@@ -84,8 +85,8 @@ def _content(path):
 
 
 def _extended(path, table):
-    """The file that a file extends, or None; removes the entry from the table."""
-    parent = table.pop("extends", None)
+    """The file that a file extends, or None."""
+    parent = table.get("extends")
     if parent is None:
         return None
     if not isinstance(parent, str):

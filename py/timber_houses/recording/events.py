@@ -124,7 +124,7 @@ class EventLog:
         for roof in self.survey.fallen_snow(state):  # 'main.roof.west' or 'entrance.roof'
             layer, _, side = e.name[roof].removeprefix(f"{e.group[roof]}.").partition(".")
             self.add(time, SnowFallen("" if e.group[roof] == main else e.group[roof], side, layer))
-        total, lost = self.survey.count_columns(state).total, int(self.survey.lost_columns(state).sum())
+        lost = int(self.survey.lost_columns(state).sum())
         reported = max((event.facts.number for event in self.events if event.kind == "columns_lost"), default=0)
         if lost >= max(1, 2 * reported):  # the first, and each time the number has doubled: a collapse gives few events
-            self.add(time, ColumnsLost(lost, total))
+            self.add(time, ColumnsLost(lost, self.survey.count_columns(state).total))

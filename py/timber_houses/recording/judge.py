@@ -56,8 +56,9 @@ class Judge:
         """Take account of further samples. samples: Samples; axes: (F, C, 3) of the columns, NaN: without a joint"""
         if not samples.samples:
             return
+        displacement = samples.displacement
         for name, judged in self.structures.items():
-            moved = samples.displacement[:, self._groups[name]]
+            moved = displacement[:, self._groups[name]]
             drift = drifts(moved, self._heights[name])
             self._judge(judged, samples.time, drift, -moved[:, :, 2] / self._heights[name])
             for storey in range(len(self._heights[name])):
@@ -70,7 +71,7 @@ class Judge:
     def _judge(judged, time, drift, drop):
         """drift: (F, L, 2); drop: (F, L) over the heights of the storeys"""
         size = np.abs(drift)
-        judged.drift = np.nan_to_num(drift[-1]).ravel().tolist()
+        judged.drift = np.where(np.isnan(drift[-1]), 0.0, drift[-1]).ravel().tolist()
         judged.peak = np.fmax(judged.peak, np.fmax.reduce(size, 0).ravel()).tolist()
         tilted, fallen = _first((size > TILT.drift).any((1, 2))), _first((drop > FALL).any(1))
         if judged.tilt_s is None and judged.fall_s is None and tilted is not None and tilted <= (
@@ -94,7 +95,7 @@ def at_columns(axes):
         return np.zeros(2), np.zeros(2)
     drift = axes[some][..., NORTH_EAST]
     drift[~stands[some]] = np.nan
-    largest, count = np.nanmax(np.abs(drift), (0, 1)), stands[some].sum(1)
+    largest, count = np.fmax.reduce(np.abs(drift), (0, 1)), stands[some].sum(1)
     drift.sort(1)  # NaN behind; np.nanmedian takes ten times as long
     frames = np.arange(len(drift))
     return largest, np.abs((drift[frames, (count - 1) // 2] + drift[frames, count // 2]) / 2).max(0)

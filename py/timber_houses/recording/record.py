@@ -83,7 +83,7 @@ class Motion(_ShortRepr):
     dt: float
     start: float
     acceleration: np.ndarray
-    displacement: np.ndarray
+    displacement: np.ndarray = None  # type: ignore[assignment]  # not computed
 
     @property
     def time(self):

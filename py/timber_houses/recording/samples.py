@@ -50,5 +50,6 @@ class Samples(Series):
 def drifts(displacement, heights):
     """(F, L, 2) drifts of storeys, north-south and east-west [-]. displacement: (F, L, 3) of the levels from below [m];
     heights: of the storeys [m]"""
-    steps = np.diff(displacement, axis=1, prepend=0.0)[:, :, NORTH_EAST]
+    steps = displacement[:, :, NORTH_EAST]
+    steps[:, 1:] -= displacement[:, :-1, NORTH_EAST]
     return steps / np.array(heights, float).reshape(1, -1, 1)

@@ -4,6 +4,7 @@
 Element k of the HouseModel is body k of the scene, joint k is joint k of the JointEngine."""
 import json
 import math
+import pickle
 
 import numpy as np
 import yade.wrapper as yw
@@ -13,7 +14,6 @@ from yade_timber.scene import record
 from yade_timber.scene.engines import find_engine
 
 from ..base.json_types import decode, encode
-from ..motion import GroundMotion, displacement
 from ..recording import frames
 from ..recording.damage import SIDES, DamageSurvey, Level, State
 from ..recording.events import Collapse, EventLog, FirstBreak, OwnWeight, StructureFallen, Tilt
@@ -84,12 +84,11 @@ def describe_levels(model):
 
 
 def describe_motion():
-    """frames.Motion of the scene's ground motion, or None."""
+    """frames.Motion of the scene's ground motion without its displacement, or None."""
     engine = find_engine(yw.GroundMotionEngine)
     if engine is None:
         return None
-    applied = GroundMotion(engine.step, engine.scale * np.array(engine.acceleration))
-    return frames.Motion(applied.dt, engine.start, applied.acceleration, displacement(applied))
+    return frames.Motion(engine.step, engine.start, engine.scale * np.array([*map(tuple, engine.acceleration)]))
 
 
 def versions():
@@ -128,9 +127,8 @@ def break_row(entry, model):
 
 
 def largest_so_far():
-    """[(load [-], pull [N], shear [N], opening [m])] of the joints: largest so far, none before a sample."""
-    sampler = find_engine(yw.Sampler)
-    return list(zip(sampler.load, sampler.pull, sampler.shear, sampler.opening))
+    """(J, 4) load [-], pull [N], shear [N], opening [m] of the joints: largest so far, none before a sample."""
+    return np.frombuffer(find_engine(yw.Sampler).peaks()).reshape(4, -1).T
 
 
 def moving_share():
@@ -164,38 +162,37 @@ class Observer:
         self.survey = DamageSurvey(describe_elements(model), describe_joints(model), describe_levels(model))
         self.log = EventLog(self.survey, progress["events"] if progress else ())
         judged = decode(dict[str, Judged], progress["judged"]) if progress else None
-        self.judge = Judge(self.survey.levels, [(e.group, e.storey) for e in sampled_columns(model)], judged)
+        self.sampled = [(e.group, e.storey) for e in sampled_columns(model)]
+        self.judge = Judge(self.survey.levels, self.sampled, judged)
         self.columns = tuple(find_engine(yw.Sampler).columns())
         self.fresh = []  # [(n, W) arrays]: rows of the Sampler that are in no file yet
-        self._past = [(O.time, encode(self.judge.structures))]
+        self._past = [(O.time, pickle.dumps(self.judge.structures))]
         self.modes = decode(ModesAt | None, progress["modes"]) if progress else None
-        self.upright = progress["upright"] if progress else (0.0, [])
-        motion = describe_motion()
-        self.shaking = motion and motion.first(HARMFUL)
-        self.spent = motion.last(SPENT) if motion else 0.0
+        self.upright = progress["upright"] if progress else (0.0, [])  # time [s], as of largest_so_far
+        self.motion = describe_motion()
+        self.shaking = self.motion and self.motion.first(HARMFUL)
+        self.spent = self.motion.last(SPENT) if self.motion else 0.0
         self.at_rest = progress["at_rest"] if progress else None  # since when the wreck is [s]
 
     def progress(self):
         """What a checkpoint must hold besides the scene: the argument `progress`."""
         return {"events": self.log.encoded(), "judged": encode(self.judge.structures), "modes": encode(self.modes),
-                "upright": self.upright, "at_rest": self.at_rest}
+                "upright": (self.upright[0], np.asarray(self.upright[1]).tolist()), "at_rest": self.at_rest}
 
     def read_samples(self):
         """Take the samples since the last call out of the scene, and judge them."""
-        sampler, columns = find_engine(yw.Sampler), len(sampled_columns(self.model))
-        samples = Samples(self.columns, np.array(sampler.rows, float))
-        axes = np.array(sampler.axes, float).reshape(samples.samples, columns, 3)
-        sampler.rows, sampler.axes = [], []
-        self.judge.judge(samples, axes)
+        rows, axes = map(np.frombuffer, find_engine(yw.Sampler).take())
+        samples = Samples(self.columns, rows)
+        self.judge.judge(samples, axes.reshape(samples.samples, len(self.sampled), 3))
         if samples.samples:
             self.fresh.append(samples.rows)
-            self._past.append((samples.time[-1], encode(self.judge.structures)))
+            self._past.append((samples.time[-1], pickle.dumps(self.judge.structures)))
 
     def _rewind(self, time):
         """Judge as at a time [s] if a later state has been judged: an earlier one was loaded."""
         while len(self._past) > 1 and self._past[-1][0] > time + O.dt / 2:
             self._past.pop()
-            self.judge.structures.update(decode(dict[str, Judged], self._past[-1][1]))
+            self.judge.structures.update(pickle.loads(self._past[-1][1]))
 
     @property
     def main_levels(self):
@@ -222,8 +219,8 @@ class Observer:
         return main.fall_s if main.tilt_s is None else min(main.tilt_s, main.fall_s)
 
     def joint_peaks(self):
-        """[(load, pull, shear, opening)] of the joints: largest values so far, or before the fall if there is one."""
-        return largest_so_far() if self.fall() is None else self.upright[1]
+        """[[load, pull, shear, opening]] of the joints: largest values so far, or before the fall if there is one."""
+        return np.asarray(largest_so_far() if self.fall() is None else self.upright[1]).tolist()
 
     def state(self):
         """damage.State of the scene; bodies and joints that the user has added are left out."""
@@ -238,10 +235,7 @@ class Observer:
         self._require_levels()
         self._rewind(time)
         self.read_samples()
-        first = next(iter(find_engine(yw.JointEngine).breaks), None)
-        if first:
-            _, _, kind, storey, side, _, cause, force = break_row(first, self.model)
-            self.log.add(first.time, FirstBreak(kind, storey, side, cause, force))
+        self._note_first_break()
         if self.judge.main.tilt_s is None and self.judge.main.fall_s is None:
             self.upright = time, largest_so_far()
         self._note_falls()
@@ -264,6 +258,13 @@ class Observer:
                 storey = [each for each in levels if each.structure == level.structure].index(level) + 1
                 raise RuntimeError(f"{level.structure}: all bodies at the top of storey {storey} are erased: it has no"
                                    " drift")
+
+    def _note_first_break(self):
+        if any(event.kind == "first_break" for event in self.log.events):
+            return
+        for first in find_engine(yw.JointEngine).breaks[:1]:
+            _, _, kind, storey, side, _, cause, force = break_row(first, self.model)
+            self.log.add(first.time, FirstBreak(kind, storey, side, cause, force))
 
     def _note_falls(self):
         main = self.judge.main

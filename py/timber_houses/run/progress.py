@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Progress of a run or a town: events and numbers as texts; a bar on standard error."""
 import sys
+from time import time as time_now
 
-import numpy as np
-import yade.wrapper as yw
 from tqdm import tqdm
-from yade_timber.scene.engines import find_engine
+from yade_timber.scene import record
 
 from ..recording.walls import count_apart
 from ..text import english
@@ -30,8 +29,7 @@ class Status:
     def numbers(self):
         """'drift 1/245, 3/382 joints broken'"""
         described = self.log.survey.joints
-        present = find_engine(yw.JointEngine).joints[:len(described.damaged)]
-        broken = np.array([joint.isBroken for joint in present], bool) & ~described.damaged
+        broken = (record.joint_loads()[1][:len(described.damaged)] >= described.springs) & ~described.damaged
         peak = max(self.judge.main.peak, default=0.0)
         joints, sheets = count_apart(described, broken)
         return f"drift {english.ratio(peak)}, {english.broken_of(joints, sheets, of='/')}"
@@ -50,12 +48,18 @@ class Bar:
         return self
 
     def __exit__(self, *_):
+        if self.status and not self.bar.disable:
+            self._show_numbers()
         self.bar.close()
+
+    def _show_numbers(self):
+        self.bar.set_postfix_str(self.status.numbers(), refresh=False)
 
     def advance(self, time):
         """To a simulated time [s]; new events are printed above the bar."""
         if self.status and not self.bar.disable:
             for line in self.status.events():
                 self.bar.write(line, file=sys.stderr)
-            self.bar.set_postfix_str(self.status.numbers(), refresh=False)
+            if time_now() - self.bar.last_print_t >= self.bar.mininterval:
+                self._show_numbers()
         self.bar.update(min(time, self.bar.total) - self.bar.n)

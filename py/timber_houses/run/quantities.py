@@ -36,7 +36,7 @@ def part_masses(observed):
 
 def storeys(observed, samples):
     momenta = samples.momenta(slice(len(observed.survey.levels), None))
-    return quantities.storeys(momenta, part_masses(observed), observer.describe_motion())
+    return quantities.storeys(momenta, part_masses(observed), observed.motion)
 
 
 def storey_peaks(table, masses):

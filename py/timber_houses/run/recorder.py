@@ -9,6 +9,7 @@ from yade_timber.scene.engines import find_engine
 
 from ..base.atomic_write import remove
 from ..base.errors import RunError
+from ..motion import GroundMotion, displacement
 from ..recording import frame_log, frames
 from ..recording.append_log import AppendLog
 from . import observer
@@ -22,10 +23,11 @@ class Recorder:
 
     def __init__(self, path, scenario, model, title, run=""):
         elements, joints = observer.describe_elements(model), observer.describe_joints(model)
-        version = observer.versions()["package"]
+        version, motion = observer.versions()["package"], observer.describe_motion()
+        if motion:
+            motion.displacement = displacement(GroundMotion(motion.dt, motion.acceleration))
         self.frames = frames.Frames(title, scenario.name, model.name, version, elements, joints,
-                                    motion=observer.describe_motion(), run=run,
-                                    sheets=observer.describe_sheets(model))
+                                    motion=motion, run=run, sheets=observer.describe_sheets(model))
         self.model, self.path, self.log, self.times = model, path, AppendLog(path.with_name(frame_log.NAME), run), []
         self.described = False  # whether the file holds elements and joints of this run
 

@@ -74,17 +74,17 @@ def springs(initial=False):
 
 def joint_of_springs(joints):
     """Index of the joint of each unbroken spring; in Springs they stand behind those of the contacts."""
-    return np.repeat(np.arange(len(joints)), [len(joint.broken) - sum(joint.broken) for joint in joints])
+    return np.repeat(np.arange(len(joints)), [joint.broken.count(0) for joint in joints])
 
 
 @between_steps()
-def natural_modes(share=0.05, bodies=None, initial=False):
+def natural_modes(share=0.05, bodies=None, linearised=None):
     """Modes of effective mass east or north >= `share` of the free mass, unstable ones and long periods first.
 
     Only the SEARCHED lowest modes are looked at. Empty without springs. bodies: ids of those that move, default all;
-    initial: as in springs()"""
+    linearised: Springs, default those of the scene"""
     free = [b for b in O.bodies if b is not None and not b.state.blockedDOFs and (bodies is None or b.id in bodies)]
-    mass, linearised = sum(b.state.mass for b in free), springs(initial)
+    mass, linearised = sum(b.state.mass for b in free), springs() if linearised is None else linearised
     free = _held(linearised, free)
     if not free:
         return []

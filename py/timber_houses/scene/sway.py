@@ -29,10 +29,11 @@ def damping_times(ratio, bodies, chosen):
 
     Zero where contacts alone have the ratio, and for a structure without stable sway. bodies: ids of those of the
     structure; chosen: (J,) bool, its joints among those of the scene"""
-    sway = sway_modes(bodies)
+    linearised = modes.springs(initial=True)
+    sway = sway_modes(bodies, linearised)
     if not sway:
         return np.zeros(len(chosen))
-    energies = np.column_stack([joint_energies(mode.shape) for mode in sway]) * chosen[:, None]
+    energies = np.column_stack([*joint_energies(linearised, sway)]) * chosen[:, None]
     omega = np.sqrt([mode.omega2 for mode in sway])
     own = np.array([compiled.dashpot_power(mode.shape.tobytes()) for mode in sway]) / (2 * omega)
     total = energies.sum(1, keepdims=True)
@@ -42,22 +43,23 @@ def damping_times(ratio, bodies, chosen):
     return np.array([float(f"{time:.3g}") for time in weights @ found])  # the same on all processors
 
 
-def sway_modes(bodies):
+def sway_modes(bodies, linearised):
     """Modes of these bodies, all others fixed, that move most of their mass E-W and N-S; one where they are the same,
     none unstable."""
-    found = [mode for mode in modes.natural_modes(bodies=bodies, initial=True) if mode.omega2 > 0]
+    found = [mode for mode in modes.natural_modes(bodies=bodies, linearised=linearised) if mode.omega2 > 0]
     most = [max(found, key=lambda mode: mode.mass[axis], default=None) for axis in HORIZONTAL]
     return [mode for k, mode in enumerate(most) if mode is not None and mode not in most[:k]]
 
 
-def joint_energies(shape):
-    """(J,) twice the elastic energy of the joints at the displacements and rotations (N, 6) of the bodies."""
+def joint_energies(linearised, sway):
+    """(J,) twice the elastic energy of the joints in each mode of `sway`. linearised: Springs of the scene"""
     joints = find_engine(yw.JointEngine).joints
-    springs, owner = modes.springs(initial=True), modes.joint_of_springs(joints)
-    first = len(springs.body) - len(owner)  # behind those of the contacts
-    body, arm = springs.body[first:], springs.arm[first:]
-    ends = shape[body, :3] + np.cross(shape[body, 3:], arm)
-    stretch = ends[:, 1] - ends[:, 0]
-    along = (stretch * springs.normal[first:]).sum(1) ** 2
-    normal, shear = springs.stiffness[first:].T
-    return np.bincount(owner, normal * along + shear * ((stretch**2).sum(1) - along), len(joints))
+    owner = modes.joint_of_springs(joints)
+    first = len(linearised.body) - len(owner)  # behind those of the contacts
+    body, arm = linearised.body[first:], linearised.arm[first:]
+    normal, shear = linearised.stiffness[first:].T
+    for shape in (mode.shape for mode in sway):
+        ends = shape[body, :3] + np.cross(shape[body, 3:], arm)
+        stretch = ends[:, 1] - ends[:, 0]
+        along = (stretch * linearised.normal[first:]).sum(1) ** 2
+        yield np.bincount(owner, normal * along + shear * ((stretch**2).sum(1) - along), len(joints))

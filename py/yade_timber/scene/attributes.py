@@ -12,7 +12,7 @@ from contextlib import contextmanager, suppress
 
 import numpy as np
 import yade.wrapper as yw
-from yade.minieigenHP import Quaternion
+from yade.minieigenHP import Quaternion, Vector3
 
 from .arguments import shown
 from .background import between_steps, within
@@ -80,10 +80,12 @@ def _require_finite(cls, attributes):
 
 def _is_finite(value):
     """Whether no number of a value is infinite or NaN, nor becomes so when YADE normalises a quaternion."""
-    if isinstance(value, Quaternion):
-        return 0 < value.norm() < math.inf
     if isinstance(value, (float, np.floating)):
         return math.isfinite(value)
+    if isinstance(value, Vector3):
+        return math.isfinite(value[0]) and math.isfinite(value[1]) and math.isfinite(value[2])
+    if isinstance(value, Quaternion):
+        return 0 < value.norm() < math.inf
     return (not hasattr(value, "__len__") or isinstance(value, (str, dict))
             or all(_is_finite(value[k]) for k in range(len(value))))
 

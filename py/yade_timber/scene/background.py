@@ -85,7 +85,7 @@ YADES = (
 OWN = (
     (yw.ContactForces, between_steps, ("largestEigenvalue",)),
     (yw.HealthCheck, between_steps, ("check",)),
-    (yw.Sampler, between_steps, ("axes", "load", "opening", "pull", "rows", "shear")),
+    (yw.Sampler, between_steps, ("axes", "load", "opening", "peaks", "pull", "rows", "shear", "take")),
     (yw.JointEngine, between_steps, ("append", "breaks", "joints")),
     (yw.TimberJoint, between_steps, ("broken", "cycles", "forces", "largestStretches", "load", "plasticStretches",
                                      "springs", "stretches")),

@@ -3,6 +3,7 @@
 import math
 import re
 from contextlib import contextmanager
+from functools import lru_cache
 
 import numpy as np
 import yade.wrapper as yw
@@ -13,6 +14,7 @@ from .background import follow_velocity
 from .queries import imposed_velocities
 
 O = yw.Omega()
+KEPT = 4096  # number of shapes whose moments are kept: a house is built twice, lots of a town share members. [-]
 LEAST_RADIUS = 1e-4  # smallest rounding radius that a caller may give, that of the tolerance for flush faces. [m]
 _TIMBER, _SNOW = yw.TimberMat(), yw.SnowMat()  # the paper's values
 
@@ -142,22 +144,28 @@ def principal_body(vertices, density, radius, **look):
     """Body with the principal axes of inertia. vertices (n, 3) world [m]; radius, 0: default; look: of shape"""
     origin = vertices.mean(0)  # far from the world's origin the moments would lose digits
     with named_as_given(vertices):
-        raw = yw.RoundedPolyhedron(vertices=[Vector3(*(v - origin)) for v in vertices], radius=radius)
-    volume, centroid, inertia, axes = raw.massProperties()
-    axes = Quaternion(axes)
-    corners = np.array([axes.conjugate() * (Vector3(*(v - origin)) - centroid) for v in vertices])
-    principal = axes.conjugate().toRotationMatrix() * inertia * axes.toRotationMatrix()
-
+        volume, centroid, moments, axes, corners = _principal((vertices - origin).tobytes(), radius)
     body = yw.Body()
-    digit = 10.0 ** (np.floor(np.log10(np.abs(corners).max())) - 12)  # equal elements anywhere share their geometry
-    rounded = np.round(corners / digit) * digit + 0.0  # no negative zeros
-    body.shape = yw.RoundedPolyhedron(vertices=[Vector3(*v) for v in rounded], radius=radius, **look)
+    body.shape = yw.RoundedPolyhedron(vertices=corners, radius=radius, **look)
     body.state.mass = density * volume
-    body.state.inertia = density * Vector3(principal[0, 0], principal[1, 1], principal[2, 2])
+    body.state.inertia = density * moments
     body.state.pos = body.state.refPos = Vector3(*origin) + centroid
     body.state.ori = body.state.refOri = axes
     body.aspherical = True
     return body
+
+
+@lru_cache(maxsize=KEPT)
+def _principal(numbers, radius):
+    """(volume [m3], centroid [m], moments of inertia over the density [m5], axes, corners in these [m]) of vertices."""
+    vertices = [Vector3(*v) for v in np.frombuffer(numbers).reshape(-1, 3)]
+    volume, centroid, inertia, axes = yw.RoundedPolyhedron(vertices=vertices, radius=radius).massProperties()
+    axes = Quaternion(axes)
+    corners = np.array([axes.conjugate() * (v - centroid) for v in vertices])
+    digit = 10.0 ** (np.floor(np.log10(np.abs(corners).max())) - 12)  # equal elements anywhere share their geometry
+    rounded = np.round(corners / digit) * digit + 0.0  # no negative zeros
+    principal = axes.conjugate().toRotationMatrix() * inertia * axes.toRotationMatrix()
+    return volume, centroid, Vector3(*principal.diagonal()), axes, [Vector3(*v) for v in rounded]
 
 
 def box(extents, centre, orientation=None, material=None, fixed=False, radius=None, name="", kind="", color=None):

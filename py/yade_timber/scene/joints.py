@@ -2,6 +2,7 @@
 """Joints between bodies of the scene that is loaded in YADE."""
 import math
 from dataclasses import dataclass, fields
+from functools import cache
 
 import yade.wrapper as yw
 from yade.minieigenHP import Vector3
@@ -149,6 +150,7 @@ def make_joint(id1, id2, points, normal=None, **attributes):
                           normal=s1.ori.conjugate() * direction.normalized(), **attributes)
 
 
+@cache
 def attribute(parameter):
     """'friction_share' -> 'frictionShare': name of a parameter in TimberJoint."""
     first, *others = parameter.split("_")
