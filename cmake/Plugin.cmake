@@ -5,6 +5,8 @@ string(REPLACE ";" " " build_features "${YADE_FEATURES}")
 configure_file(${PROJECT_SOURCE_DIR}/pkg/build_info.hpp.in ${PROJECT_BINARY_DIR}/generated/build_info.hpp)
 
 file(GLOB plugin_sources CONFIGURE_DEPENDS pkg/*.cpp)
+list(LENGTH plugin_sources plugin_count)
+math(EXPR plugin_batch "(${plugin_count} + 1) / 2")
 set(package_dir ${PROJECT_BINARY_DIR}/python/yade_timber)
 set(TIMBER_SITE_DIR ${YADE_SITE_DIR} CACHE PATH "Python folder that both packages are installed into")
 
@@ -16,7 +18,7 @@ function(timber_module name kernel folder)
   target_link_options(${name} PRIVATE -Wl,-z,defs -Wl,--as-needed)
   target_precompile_headers(${name} PRIVATE <pch.hpp>)
   set_target_properties(${name} PROPERTIES
-    UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12 # the headers of YADE instantiate half a minute of templates in each unit
+    UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${plugin_batch} # two units: in each one the headers of YADE instantiate half a minute of templates
     PREFIX "" OUTPUT_NAME _yade_timber INSTALL_RPATH ${YADE_LIB_DIR} BUILD_RPATH ${YADE_LIB_DIR} LIBRARY_OUTPUT_DIRECTORY ${package_dir}/${folder})
   # YADE's macros leave unused parameters and ignored qualifiers in the including file.
   target_compile_options(${name} PRIVATE -Wno-unused-parameter)
