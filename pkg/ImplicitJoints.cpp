@@ -70,8 +70,12 @@ namespace {
 		Real error = 0;
 		for (size_t i = 0; i < springs.count; ++i) {
 			if (!springs.isIntact(i)) continue;
-			const Vector3r velocity = timber::relativeVelocity<double>(a.axes * springs.anchorA(i),
-			        b.axes * springs.anchorB(i), a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
+			// Of springs along an axis of A: at their ends, about which this axis turns them
+			const Vector3r armB = b.axes * springs.anchorB(i),
+			               armA = actsAlong ? Vector3r(b.position + armB - a.position)
+			                                : Vector3r(a.axes * springs.anchorA(i));
+			const Vector3r velocity = timber::relativeVelocity<double>(
+			        armA, armB, a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
 			const Real way = h * (actsAlong ? math::abs(line.dot(velocity)) : velocity.norm());
 			if (way * k > limit) error += k * way * way / 8;
 		}

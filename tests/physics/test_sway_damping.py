@@ -10,7 +10,7 @@ import yade_timber as yt
 from yade import O
 from timber_houses.base.joint_kinds import WALL_KINDS
 from timber_houses.house.parser import house_text
-from timber_houses.scene import scenario, sway
+from timber_houses.scene import modes, scenario, sway
 
 DRIFT = 4e-5
 """Of the top over its height, at the start [rad]: 0.1 mm a storey. Friction in loosely loaded contacts adds 0.002 to
@@ -70,7 +70,8 @@ def momenta(mode):
 
 def decay(axis):
     """Damping ratio of the first sway mode along an axis."""
-    mode = next(m for m in sway.sway_modes({b.id for b in O.bodies}) if np.argmax(m.mass[:2]) == axis)
+    swaying = sway.sway_modes({b.id for b in O.bodies}, modes.springs(initial=True))
+    mode = next(m for m in swaying if np.argmax(m.mass[:2]) == axis)
     top = max(b.state.pos[2] for b in O.bodies)
     speed = DRIFT * top * np.sqrt(mode.omega2) / abs(mode.shape[:, axis]).max()
     for b in O.bodies:
