@@ -6,7 +6,7 @@ import sys
 from contextlib import contextmanager
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
+sys.path.append(str(Path(__file__).resolve().parents[2] / "py"))  # after the installed package, which the runs use
 
 from timber_houses.base.encoding import print_anything
 from timber_houses.base.errors import InputError

@@ -188,6 +188,11 @@ class Observer:
             self.fresh.append(samples.rows)
             self._past.append((samples.time[-1], pickle.dumps(self.judge.structures)))
 
+    def judge_until(self, time):
+        """Judge all samples up to now. time [s]"""
+        self._rewind(time)
+        self.read_samples()
+
     def _rewind(self, time):
         """Judge as at a time [s] if a later state has been judged: an earlier one was loaded."""
         while len(self._past) > 1 and self._past[-1][0] > time + O.dt / 2:
@@ -233,8 +238,7 @@ class Observer:
         RuntimeError."""
         self.log.drop_after(time)
         self._require_levels()
-        self._rewind(time)
-        self.read_samples()
+        self.judge_until(time)
         self._note_first_break()
         if self.judge.main.tilt_s is None and self.judge.main.fall_s is None:
             self.upright = time, largest_so_far()

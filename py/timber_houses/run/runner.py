@@ -182,6 +182,7 @@ class Run(Stoppable):
         PhysicsError, and Interrupted after a signal."""
         with physics_errors():
             find_engine(yw.HealthCheck).check()
+        self.observer.judge_until(O.time)
         if self.is_over():
             self.steps = O.iter
         if O.iter == self.steps:
