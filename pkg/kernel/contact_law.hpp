@@ -101,8 +101,8 @@ template <class Law> double approachOverlap(const Law& law, double mass, double 
 
 /// Effective overlap of a new point: explained by its approach in the last step, or paid for by the energy released
 /// with other points of the pair in that step (a vertex that slides over a border transfers its load to the crossing
-/// edges). ContactKinds that the paper ignores (vertex on edge) let a vertex penetrate before a face detects it; the full
-/// force at once would create energy.
+/// edges). Kinds of contact that the paper ignores (vertex on edge) let a vertex penetrate before a face detects it; the
+/// full force at once would create energy.
 /// overlap [m] > 0, approach: approachOverlap() [m], energy [J]; returns [m].
 template <class Law> double initialOverlap(const Law& law, double overlap, double approach, double energy)
 {

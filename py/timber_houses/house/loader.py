@@ -53,7 +53,7 @@ def _chain(path):
 
 @lru_cache(maxsize=KEPT)
 def _table(content, path, nodes_left):
-    """(table, number of YAML values) of the content of a file; others share the table."""
+    """(table, number of YAML values) of the content of a file, the first time with its warnings; callers share it."""
     if path.suffix.lower() == BTLX:
         return btlx.btlx_table(content, path.name), 0
     return parse_table(_text(content, path), path.name, nodes_left)

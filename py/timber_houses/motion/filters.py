@@ -3,7 +3,7 @@
 import math
 
 import numpy as np
-import scipy  # submodules load on first use; `signal` needs 0.15 s and 27 MB
+import scipy  # submodules (27 MB) load on first use; a plain run needs none
 
 from .record import RecordError
 
@@ -15,11 +15,6 @@ def zero_phase_highpass(acceleration, dt, corner, order):
     """High-pass of (n, k) samples along the first axis, padded for the transients."""
     padded, pad = highpass_with_ends(acceleration, dt, corner, order)
     return padded[pad:-pad]
-
-
-def running_integral(values, dt):
-    """Trapezoidal integral along the first axis, from zero; scipy.integrate takes 0.04 s to load."""
-    return np.concatenate([np.zeros((1, *values.shape[1:])), np.cumsum(dt * (values[1:] + values[:-1]) / 2.0, axis=0)])
 
 
 def require_size(samples, member):

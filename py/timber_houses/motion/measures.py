@@ -5,9 +5,9 @@ from bisect import bisect_right
 from dataclasses import dataclass
 
 import numpy as np
-import scipy  # submodules load on first use
+import scipy  # submodules (27 MB) load on first use; a plain run needs none
 
-from .filters import PADDING, highpass_with_ends, running_integral
+from .filters import PADDING, highpass_with_ends
 from .record import GAL, STANDARD_GRAVITY, RecordError, interpolated, subdivided
 
 CM = 0.01  # one centimetre in metres
@@ -73,7 +73,7 @@ def _integral(motion, corner, times):
     if corner is not None:
         values, pad = highpass_with_ends(values, dt, corner, 2)
     for _ in range(times):
-        values = running_integral(values, dt)
+        values = scipy.integrate.cumulative_trapezoid(values, dx=dt, axis=0, initial=0.0)
     values = values[pad : len(values) - pad]
     return values if stride == 1 else interpolated(np.arange(len(motion)), kept, values)
 
@@ -248,4 +248,4 @@ def onset(motion, share=0.05):
 
 def _energy(motion):
     """Running integral of the squared acceleration. (n, 3) [m2/s3]"""
-    return running_integral(motion.acceleration**2, motion.dt)
+    return scipy.integrate.cumulative_trapezoid(motion.acceleration**2, dx=motion.dt, axis=0, initial=0.0)

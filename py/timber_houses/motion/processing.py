@@ -6,7 +6,7 @@ from datetime import timedelta
 from fractions import Fraction
 
 import numpy as np
-import scipy  # submodules load on first use
+import scipy  # submodules (27 MB) load on first use; a plain run needs none
 
 from .filters import require_size, zero_phase_highpass
 from .measures import jma_intensity, pga
@@ -135,21 +135,11 @@ def _fourier(motion, dt):
                  f"{motion.name}: resampling to {dt:g} s")
     padded = np.pad(motion.acceleration, ((0, total - len(motion)), (0, 0)))
     last = math.floor((len(motion) - 1) * motion.dt / dt + 1e-9)
-    kept = _resampled(padded, periods * ratio.denominator)
+    kept = scipy.signal.resample(padded, periods * ratio.denominator, axis=0)
     if ratio <= 1:
         return kept[: last + 1], kept[: last + 1]
-    dense = _resampled(padded, total * ratio.denominator)
+    dense = scipy.signal.resample(padded, total * ratio.denominator, axis=0)
     return dense[:: ratio.numerator][: last + 1], kept[: last + 1]
-
-
-def _resampled(samples, count):
-    """(count, k) values of the Fourier series of periodic samples (n, k); as scipy.signal.resample, to the last bit."""
-    spectrum, shorter = scipy.fft.rfft(samples, axis=0), min(len(samples), count)
-    kept = np.zeros((count // 2 + 1, samples.shape[1]), complex)
-    kept[: shorter // 2 + 1] = spectrum[: shorter // 2 + 1]
-    if shorter % 2 == 0 and count != len(samples):  # a Nyquist frequency has one term, any other one two
-        kept[shorter // 2] *= 2.0 if count < len(samples) else 0.5
-    return scipy.fft.irfft(kept, count, axis=0) * (count / len(samples))
 
 
 def interpolation_error(motion, dt=0.0):
