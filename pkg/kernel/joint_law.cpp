@@ -94,45 +94,100 @@ void springForces(const JointStiffness& stiffness, const JointPlacement& placeme
 	total = { sums.vector(0), sums.vector(3), sums.vector(6), sums[9], 0, 1, largest, sums[10] };
 }
 
+namespace {
+	/// Forces of a joint's yielding springs and their sums, one after the other.
+	class YieldingSprings {
+		SpringLaw& law;
+		const JointPlacement& placement;
+		const Vec3& axis;
+		const JointSprings& springs;
+		const Vec3 worldAxis = placement.axesA * axis;
+		const bool isAxial = !axis.isZero(0);
+		Sums<12> sums; ///< force, torques; sum, energy, share
+		double intact = 0, dissipated = 0, largestSquared = 0;
+		bool isSpent = false;
+
+		/// The force is not along the stretch: it acts on both bodies at the anchor of B.
+		template <class Number>
+		[[gnu::always_inline]] void sum(const Vec3Of<Number>& force, const Vec3Of<Number>& end,
+		        const Vec3Of<Number>& armB, Number energy, Number share)
+		{
+			const Number square = force.squaredNorm();
+			sums.add<Number>(laneCount, force, Vec3Of<Number>(end.cross(force)),
+			        Vec3Of<Number>(-armB.cross(force)), sqrt(square), energy, share);
+			for (size_t i = 0; i < (std::is_same_v<Number, double> ? 1 : laneCount); ++i)
+				largestSquared = std::max(largestSquared, lane(square, i));
+		}
+
+	public:
+		YieldingSprings(SpringLaw& l, const JointPlacement& p, const Vec3& a, const JointSprings& s)
+		        : law(l)
+		        , placement(p)
+		        , axis(a)
+		        , springs(s)
+		{
+		}
+
+		/// laneCount springs at once, if their histories stay.
+		bool addSteady(size_t first)
+		{
+			if (isAxial) return false;
+			SpringLanes& s = springs.group(first);
+			const auto axesA = broadcast<Lanes>(placement.axesA);
+			const Vec3s none = Vec3s::Constant(Lanes(0.)),
+			            armB = broadcast<Lanes>(placement.axesB) * s.anchorsB,
+			            end = broadcast<Lanes>(placement.distance) + armB,
+			            stretch = select(s.intact, Vec3s(end - axesA * s.anchorsA), none);
+			SteadySprings state;
+			if (!law.areSteady(first, axesA.transpose() * stretch, s.intact, state)) return false;
+			s.stretches = stretch;
+			s.forces = select(s.intact, Vec3s(axesA * state.force), none);
+			const Lanes zero = 0.;
+			sum<Lanes>(s.forces, end, armB, select(s.intact, state.energy, zero),
+			        select(s.intact, state.share, zero));
+			for (size_t i = 0; i < laneCount; ++i)
+				intact += lane(s.intact, i);
+			return true;
+		}
+		void add(size_t i)
+		{
+			const Vec3 armB = placement.axesB * springs.anchorB(i), end = placement.distance + armB;
+			Vec3 stretch = end - placement.axesA * springs.anchorA(i), force;
+			SpringState state;
+			if (isAxial) {
+				const double along = worldAxis.dot(stretch);
+				stretch = along * worldAxis;
+				state = law.commit(i, along * axis);
+				force = axis.dot(state.force) * worldAxis;
+			} else {
+				state = law.commit(i, placement.axesA.transpose() * stretch);
+				force = placement.axesA * state.force;
+			}
+			springs.set(i, stretch, force);
+			sum<double>(force, end, armB, state.energy, state.share);
+			++intact;
+			dissipated += state.dissipated;
+			isSpent = isSpent || state.breaks;
+		}
+		JointForce total() const
+		{
+			return { sums.vector(0), sums.vector(3), sums.vector(6), sums[10], dissipated,
+				intact > 0 ? sums[11] / intact : 1, largestSquared, sums[9], true, isSpent };
+		}
+	};
+}
+
 JointForce yieldingForces(
         SpringLaw& law, const JointPlacement& placement, const Vec3& axis, const JointSprings& springs)
 {
 	assert((axis.isZero() || isUnit(axis)) && isFinite(placement.distance));
-	const bool isAxial = !axis.isZero(0);
-	const Vec3 worldAxis = placement.axesA * axis;
-	JointForce total;
-	total.isKnown = true;
-	double tangents = 0, intact = 0;
-	for (size_t i = 0; i < springs.count; ++i) {
-		if (!springs.isIntact(i)) continue;
-		const Vec3 armB = placement.axesB * springs.anchorB(i), end = placement.distance + armB;
-		Vec3 stretch = end - placement.axesA * springs.anchorA(i);
-		SpringState state;
-		Vec3 force;
-		if (isAxial) {
-			const double along = worldAxis.dot(stretch);
-			stretch = along * worldAxis;
-			state = law.commit(i, along * axis);
-			force = axis.dot(state.force) * worldAxis;
-		} else {
-			state = law.commit(i, placement.axesA.transpose() * stretch);
-			force = placement.axesA * state.force;
-		}
-		springs.set(i, stretch, force);
-		tangents += state.share;
-		++intact;
-		total.force += force;
-		// The force is not along the stretch: it acts on both bodies at the anchor of B
-		total.torqueA += end.cross(force);
-		total.torqueB -= armB.cross(force);
-		total.largestSquared = std::max(total.largestSquared, force.squaredNorm());
-		total.sum += force.norm();
-		total.energy += state.energy;
-		total.dissipated += state.dissipated;
-		total.isSpent = total.isSpent || state.breaks;
+	YieldingSprings all(law, placement, axis, springs);
+	for (size_t first = 0; first < springs.count; first += laneCount) {
+		if (all.addSteady(first)) continue;
+		for (size_t i = first; i < std::min(springs.count, first + laneCount); ++i)
+			if (springs.isIntact(i)) all.add(i);
 	}
-	if (intact > 0) total.tangent = tangents / intact;
-	return total;
+	return all.total();
 }
 
 bool isOverloaded(const JointStrength& limit, const JointForce& force)

@@ -21,8 +21,8 @@ SpringsState JointSet::state(const JointEntry& joint)
 	SpringsState state { all.broken(), all.all(&JointSprings::stretch), all.all(&JointSprings::force), {}, {}, {},
 		joint.half, joint.account, joint.modes };
 	if (const auto* slip = std::get_if<SlipSprings>(&joint.law)) {
-		state.plastic = slip->plastic;
-		state.largest = slip->largest;
+		state.plastic = slip->plastic();
+		state.largest = slip->largest();
 	}
 	if (const auto* wall = std::get_if<WallSprings>(&joint.law)) state.wall = wall->histories;
 	return state;
@@ -53,8 +53,7 @@ void JointSet::change(size_t index, JointEntry parameters, const std::vector<Vec
 	if (auto* slip = std::get_if<SlipSprings>(&joint.law)) {
 		s.plastic.resize(count, none);
 		s.largest.resize(count, 0);
-		slip->plastic = std::move(s.plastic);
-		slip->largest = std::move(s.largest);
+		slip->setHistories(std::move(s.plastic), std::move(s.largest));
 	}
 	s.wall.resize(count);
 	if (auto* wall = std::get_if<WallSprings>(&joint.law)) wall->histories = std::move(s.wall);

@@ -115,16 +115,33 @@ namespace {
 		return { flow > 0 ? Vec3(trial * (limit / length)) : trial, length, flow };
 	}
 
+	/// Both parts: elastic: e, r: length of the stretch d, slack: s; friction, slip: as in SlipGrowth, of each.
+	template <class Number> struct SlipParts {
+		Vec3Of<Number> force; ///< [N]
+		Number energy, share; ///< [J, -]
+
+		[[gnu::always_inline]] SlipParts(const SlipLaw& law, const Vec3Of<Number>& elastic,
+		        const Vec3Of<Number>& stretch, Number r, Number slack, double friction, double slipping)
+		{
+			const double phi = law.frictionShare, k = law.stiffness;
+			const Number none = 0., slip = max(none, Number(r - slack));
+			const auto acts = slip > none;
+			const Number along = select(acts, Number(slip / select(acts, r, Number(1.))), none);
+			force = Number(k) * (Number(phi) * elastic + Number(1 - phi) * along * stretch);
+			energy = Number(k / 2) * (Number(phi) * elastic.squaredNorm() + Number(1 - phi) * slip * slip);
+			share = Number(phi * friction) + select(acts, Number((1 - phi) * slipping), none);
+		}
+	};
+
 	SlipForce forceOf(const SlipLaw& law, const SlipHistory& history, const Vec3& stretch, const SlipGrowth& g)
 	{
-		const double phi = law.frictionShare, k = law.stiffness, r = stretch.norm();
+		const double phi = law.frictionShare;
 		const RadialReturn part = radialReturn(stretch - history.plastic, g.limit);
 		const Vec3 plastic = part.flow > 0 ? Vec3(stretch - part.elastic) : history.plastic;
-		const double slip = std::max(0., r - g.slack), along = slip > 0 ? slip / r : 0,
-		             share = phi * (part.flow > 0 ? g.friction : 1) + (1 - phi) * (slip > 0 ? g.slip : 0);
-		return { k * (phi * part.elastic + (1 - phi) * along * stretch),
-			k / 2 * (phi * part.elastic.squaredNorm() + (1 - phi) * slip * slip),
-			k * (phi * g.mean * part.flow + (1 - phi) * g.work), share, { plastic, g.largest } };
+		const SlipParts<double> both(
+		        law, part.elastic, stretch, stretch.norm(), g.slack, part.flow > 0 ? g.friction : 1, g.slip);
+		return { both.force, both.energy, law.stiffness * (phi * g.mean * part.flow + (1 - phi) * g.work),
+			both.share, { plastic, g.largest } };
 	}
 
 	/// Tangent of both parts, without the change of the friction part's limit across the stretch.
@@ -165,30 +182,54 @@ SlipForce slipForce(const SlipLaw& law, const SlipHistory& history, const Vec3& 
 SlipSprings::SlipSprings(const SlipLaw& l, const Vec3& a, size_t count)
         : law(l)
         , axis(a)
-        , plastic(count, Vec3::Zero())
-        , largest(count, 0)
 {
 	assert(law.isValid() && (axis.isZero(0) || isUnit(axis)));
+	setHistories(std::vector<Vec3>(count, Vec3::Zero()), std::vector<double>(count, 0));
+}
+
+void SlipSprings::setHistories(std::vector<Vec3> plastic, std::vector<double> largest)
+{
+	assert(plastic.size() == largest.size());
+	plasticStretches = std::move(plastic);
+	largestStretches = std::move(largest);
+	limits.clear();
+	for (const double R : largestStretches)
+		limits.push_back(R - law.slackAt(R).slack);
 }
 
 SpringTrial SlipSprings::trial(size_t spring, const Vec3& to, bool keepsForce) const
 {
-	const SlipHistory before { plastic[spring], largest[spring] };
-	const Vec3 stretch = onAxis(to);
 	Mat3 tangent;
-	const SlipForce force = slipForce(law, before, stretch, keepsForce, tangent);
+	const SlipForce force = slipForce(law, history(spring), onAxis(to), keepsForce, tangent);
 	if (!axis.isZero(0)) tangent = axis.dot(tangent * axis) * axis * axis.transpose();
 	return { { force.force, force.energy, force.dissipated, false, force.share }, tangent };
 }
 
 SpringState SlipSprings::commit(size_t spring, const Vec3& to)
 {
-	const SlipHistory before { plastic[spring], largest[spring] };
-	const Vec3 stretch = onAxis(to);
-	const SlipForce force = slipForce(law, before, stretch);
-	plastic[spring] = force.history.plastic;
-	largest[spring] = force.history.largest;
+	const SlipForce force = slipForce(law, history(spring), onAxis(to));
+	plasticStretches[spring] = force.history.plastic;
+	if (force.history.largest > largestStretches[spring]) {
+		largestStretches[spring] = force.history.largest;
+		limits[spring] = force.history.largest - law.slackAt(force.history.largest).slack;
+	}
 	return { force.force, force.energy, force.dissipated, isSpent(spring), force.share };
+}
+
+bool SlipSprings::areSteady(size_t first, const Vec3s& to, Lanes::Mask acting, SteadySprings& state) const
+{
+	if (!axis.isZero(0)) return false;
+	const size_t count = largestStretches.size() - first;
+	const auto numbers
+	        = [&](const std::vector<double>& x) { return Group<Lanes, const double>(&x[first], count).numbers(); };
+	const Lanes largest = numbers(largestStretches), limit = numbers(limits), r = sqrt(to.squaredNorm());
+	const Vec3s elastic = to - Group<Lanes, const Vec3>(&plasticStretches[first], count).vectors();
+	const auto grows = logicalOr(r > largest, largest >= Lanes(law.ultimateStretch())),
+	           yields = sqrt(elastic.squaredNorm()) > limit;
+	if (any(logicalAnd(acting, logicalOr(grows, yields)))) return false;
+	const SlipParts<Lanes> both(law, elastic, to, r, largest - limit, 1, 1);
+	state = { both.force, both.energy, both.share };
+	return true;
 }
 
 } // namespace timber

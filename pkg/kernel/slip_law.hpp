@@ -118,17 +118,24 @@ class SlipSprings : public SpringLaw {
 	SlipLaw law;
 	Vec3 axis;
 
+	// Of each spring:
+	std::vector<Vec3> plasticStretches; ///< p, in the frame of A [m]
+	std::vector<double> largestStretches; ///< R [m]
+	std::vector<double> limits; ///< y at R [m]
+
 	Vec3 onAxis(const Vec3& stretch) const { return axis.isZero(0) ? stretch : Vec3(axis.dot(stretch) * axis); }
+	SlipHistory history(size_t spring) const { return { plasticStretches[spring], largestStretches[spring] }; }
 
 public:
-	std::vector<Vec3> plastic; ///< p of each spring, in the frame of A [m]
-	std::vector<double> largest; ///< R [m]
-
 	/// axis: unit vector in the frame of A, on which the stretches are projected; zero: they act in all directions.
 	SlipSprings(const SlipLaw&, const Vec3& axis, size_t count = 0);
+	const std::vector<Vec3>& plastic() const { return plasticStretches; }
+	const std::vector<double>& largest() const { return largestStretches; }
+	void setHistories(std::vector<Vec3> plastic, std::vector<double> largest);
 	SpringTrial trial(size_t spring, const Vec3& to, bool keepsForce) const override;
 	SpringState commit(size_t spring, const Vec3& to) override;
-	bool isSpent(size_t spring) const override { return largest[spring] >= law.ultimateStretch(); }
+	bool areSteady(size_t first, const Vec3s& to, Lanes::Mask acting, SteadySprings& state) const override;
+	bool isSpent(size_t spring) const override { return largestStretches[spring] >= law.ultimateStretch(); }
 	double steepestFall() const override { return law.steepestFall(); }
 };
 

@@ -23,6 +23,12 @@ struct SpringTrial : SpringState {
 	Mat3 tangent = Mat3::Zero();
 };
 
+/// laneCount springs whose histories stay and dissipate nothing: members of SpringState.
+struct SteadySprings {
+	Vec3s force;
+	Lanes energy, share;
+};
+
 /// Springs of a joint with their histories.
 class SpringLaw {
 public:
@@ -33,6 +39,12 @@ public:
 	virtual SpringTrial trial(size_t spring, const Vec3& to, bool keepsForce) const = 0;
 	/// The same with all of the law; the history goes on to the other stretch.
 	virtual SpringState commit(size_t spring, const Vec3& to) = 0;
+	/// What commit() gives for the springs from `first` on, if their histories stay; else false. acting: lanes that count.
+	virtual bool areSteady(size_t first, const Vec3s& to, Lanes::Mask acting, SteadySprings& state) const
+	{
+		(void)first, (void)to, (void)acting, (void)state;
+		return false;
+	}
 	/// Whether no strength is left. Springs that reach their strength without a history break in other ways.
 	virtual bool isSpent(size_t) const { return false; }
 	/// Largest rate at which the force of the first loading falls with the stretch; 0: it never does. [N/m]

@@ -408,6 +408,54 @@ public:
 
 } // namespace
 
+/// Springs whose histories stay are computed in groups: bit for bit what each gives alone, also beside broken ones.
+TEST(SlipJoint, GroupsGiveWhatSingleSpringsDo)
+{
+	constexpr size_t count = 7, broken = 2;
+	Random random(65);
+	std::vector<SpringLanes> groups { groupsOf(count) };
+	const JointSprings springs { groups.data(), count };
+	const std::vector<Vec3> anchors(count, Vec3::Zero());
+	std::vector<int> flags(count, 0);
+	flags[broken] = 1;
+	springs.assign(anchors, anchors, flags);
+	SlipSprings laws(lawOf(0.3), Vec3::Zero(), count);
+	std::vector<SlipHistory> histories(count);
+	for (size_t i = 0; i < count; ++i)
+		histories[i].largest = uniform(random, 0, 0.01);
+	laws.setHistories(std::vector<Vec3>(count, Vec3::Zero()), [&] {
+		std::vector<double> largest;
+		for (const SlipHistory& history : histories)
+			largest.push_back(history.largest);
+		return largest;
+	}());
+	const Mat3 axes = Mat3::Identity();
+	Vec3 distance = Vec3::Zero();
+	int steps[2] = {};
+	for (int step = 0; step < 2000; ++step) {
+		distance += randomVector(random, 3e-4);
+		const JointForce total = yieldingForces(laws, { axes, axes, distance }, Vec3::Zero(), springs);
+		double energy = 0, dissipated = 0;
+		bool stays = true;
+		for (size_t i = 0; i < count; ++i) {
+			if (i == broken) continue;
+			const SlipForce alone = slipForce(lawOf(0.3), histories[i], distance);
+			EXPECT_EQ(springs.force(i), alone.force) << step;
+			EXPECT_EQ(laws.plastic()[i], alone.history.plastic);
+			EXPECT_EQ(laws.largest()[i], alone.history.largest);
+			stays = stays && alone.history.plastic == histories[i].plastic
+			        && alone.history.largest == histories[i].largest;
+			histories[i] = alone.history;
+			energy += alone.energy;
+			dissipated += alone.dissipated;
+		}
+		++steps[stays];
+		EXPECT_EQ(total.energy, energy);
+		EXPECT_EQ(total.dissipated, dissipated);
+	}
+	EXPECT_GT(std::min(steps[0], steps[1]), 100); // both ways are taken
+}
+
 /// A rigid rotation of both bodies, here by 120 degrees, turns the forces with the history and does no work.
 TEST(SlipJoint, HistoryTurnsWithTheBody)
 {
@@ -462,7 +510,7 @@ TEST(SlipJoint, SpringsAlongAnAxis)
 {
 	Joint joint(Vec3::UnitZ()), free;
 	EXPECT_EQ(joint.place({ 0.02, 0.011, 0 }).force, Vec3(Vec3::Zero()));
-	EXPECT_EQ(joint.laws.largest[0], 0);
+	EXPECT_EQ(joint.laws.largest()[0], 0);
 	const Vec3 force = joint.place({ 0.02, -0.011, 0.004 }).force;
 	EXPECT_LT((force - free.place({ 0, 0, 0.004 }).force).norm(), rounding * F);
 	joint.axesA = joint.axesB = about({ 1, 0, 0 }, M_PI / 2).toRotationMatrix(); // z becomes -y
