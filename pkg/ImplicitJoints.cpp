@@ -8,19 +8,22 @@ namespace {
 	using Bodies = std::vector<timber::SolverBody>;
 
 	/// Modes of a joint's bodies, of which one is free, computed again where those of the last step no longer serve.
-	void updateModes(timber::JointEntry& joint, const timber::JointSprings& springs, Real h, const Bodies& bodies)
+	void updateModes(const ImplicitJoint& implicit, Real h, const Bodies& bodies)
 	{
+		const timber::JointEntry& joint = *implicit.joint;
+		const timber::JointSprings& springs = implicit.springs;
+		timber::JointModes& modes = *implicit.modes;
 		const timber::SolverBody &a = bodies[joint.bodyA], &b = bodies[joint.bodyB];
 		timber::JointState now { joint.intact, joint.stiffness, timber::pairInverseMass(a, b),
 			a.inverseInertia.trace() + b.inverseInertia.trace() };
-		const bool isExplicit = !joint.isDamped() && !joint.isStiff() && !joint.modes.mayBeStiff(h);
-		if (isExplicit && joint.modes.state.hasSame(now)) return;
+		const bool isExplicit = !joint.isDamped() && !joint.isStiff() && !modes.mayBeStiff(h);
+		if (isExplicit && modes.state.hasSame(now)) return;
 		now.relative = a.axes.transpose() * b.axes;
-		if (joint.modes.state.fits(now, joint.modes.largestTurn(h, joint.dampingAt(1)))) return;
+		if (modes.state.fits(now, modes.largestTurn(h, joint.dampingAt(1)))) return;
 		timber::SpringGroup unbroken { {}, joint.stiffness, joint.normal };
 		for (size_t k = 0; k < springs.count; ++k)
 			if (springs.isIntact(k)) unbroken.anchors.push_back(springs.anchorA(k));
-		joint.modes = timber::jointModes(a, b, a.axes, unbroken, now);
+		modes = timber::jointModes(a, b, a.axes, unbroken, now);
 	}
 
 	/// Whether a joint holds two bodies, of which one is free.
@@ -42,43 +45,72 @@ namespace {
 		return { a, b, a.axes * joint.normal, b.position + armB - a.position, armB, joint.stiffness.normal };
 	}
 
-	/// A joint that may be in the solver, with its modes. isStiff: whether the step does not resolve its springs.
-	ImplicitJoint withModes(timber::JointSet& set, size_t index, Real h, const Bodies& bodies)
+	/// Completes a joint that may be in the solver, with its modes. first: of its line, null if none is listed.
+	void addModes(ImplicitJoint& one, const ImplicitJoint* first, Real h, const Bodies& bodies)
+	{
+		timber::JointEntry& joint = *one.joint;
+		if (one.isAxial) {
+			if (first) {
+				one.axis = first->axis;
+				one.axis.stiffness = joint.stiffness.normal;
+				one.axis.others = 0;
+			} else one.axis = springAxis(joint, one.springs, bodies);
+			one.isStiff = h * one.axis.frequency() > timber::stiffPhase;
+		} else {
+			updateModes(one, h, bodies);
+			one.isStiff = one.modes->isStiff(h);
+		}
+	}
+
+	/// A joint that may be in the solver, without its modes.
+	ImplicitJoint implicitJoint(timber::JointSet& set, size_t index)
 	{
 		timber::JointEntry& joint = set.joints[index];
-		ImplicitJoint result { &joint, set.springs(joint), index, false, joint.total.tangent, joint.isAxial(),
-			{} };
-		if (result.isAxial) {
-			result.axis = springAxis(joint, result.springs, bodies);
-			result.isStiff = h * result.axis.frequency() > timber::stiffPhase;
-		} else {
-			updateModes(joint, result.springs, h, bodies);
-			result.isStiff = joint.modes.isStiff(h);
+		return { &joint, &set.modesOf(joint), set.springs(joint), index, false, joint.total.tangent,
+			joint.isAxial(), {} };
+	}
+
+	/// Largest velocity of a spring's ends relative to each other, at most. [m/s]
+	Real largestRate(const timber::JointEntry& joint, const timber::SolverBody& a, const timber::SolverBody& b)
+	{
+		const Vector3r between = timber::relativeVelocity<double>(a.axes * joint.centreA,
+		        b.axes * joint.centreB, a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
+		return between.norm() + (a.newSpin.norm() + b.newSpin.norm()) * joint.reach;
+	}
+
+	/// Velocities of the unbroken springs, of those along an axis of A along it, at their ends, about which this axis
+	/// turns them. [m/s]
+	template <class Visit> void visitRates(const ImplicitJoint& implicit, const Bodies& bodies, Visit visit)
+	{
+		const timber::JointEntry& joint = *implicit.joint;
+		const timber::JointSprings& springs = implicit.springs;
+		const timber::SolverBody &a = bodies[joint.bodyA], &b = bodies[joint.bodyB];
+		const bool actsAlong = joint.stiffness.shear == 0;
+		const Vector3r line = a.axes * joint.normal;
+		for (size_t i = 0; i < springs.count; ++i) {
+			if (!springs.isIntact(i)) continue;
+			const Vector3r armB = b.axes * springs.anchorB(i),
+			               armA = actsAlong ? Vector3r(b.position + armB - a.position)
+			                                : Vector3r(a.axes * springs.anchorA(i)),
+			               velocity = timber::relativeVelocity<double>(
+			                       armA, armB, a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
+			visit(actsAlong ? math::abs(line.dot(velocity)) : velocity.norm());
 		}
-		return result;
 	}
 
 	/// Energy by which a yielding joint errs in this step if its springs cross a corner of their law. [J]
 	Real errorOfYielding(const ImplicitJoint& implicit, Real h, const Bodies& bodies)
 	{
 		const timber::JointEntry& joint = *implicit.joint;
-		const timber::JointSprings& springs = implicit.springs;
-		const timber::SolverBody &a = bodies[joint.bodyA], &b = bodies[joint.bodyB];
-		const Real limit = timber::yieldTravel * joint.springStrength(), k = joint.stiffness.normal;
-		const bool actsAlong = joint.stiffness.shear == 0;
-		const Vector3r line = actsAlong ? Vector3r(a.axes * joint.normal) : Vector3r::Zero();
+		const Real k = joint.stiffness.normal, limit = timber::yieldTravel * joint.springStrength() / (h * k);
 		Real error = 0;
-		for (size_t i = 0; i < springs.count; ++i) {
-			if (!springs.isIntact(i)) continue;
-			// Of springs along an axis of A: at their ends, about which this axis turns them
-			const Vector3r armB = b.axes * springs.anchorB(i),
-			               armA = actsAlong ? Vector3r(b.position + armB - a.position)
-			                                : Vector3r(a.axes * springs.anchorA(i));
-			const Vector3r velocity = timber::relativeVelocity<double>(
-			        armA, armB, a.newVelocity, a.newSpin, b.newVelocity, b.newSpin);
-			const Real way = h * (actsAlong ? math::abs(line.dot(velocity)) : velocity.norm());
-			if (way * k > limit) error += k * way * way / 8;
-		}
+		const auto add = [&](Real rate) {
+			if (rate > limit) error += k * (h * rate) * (h * rate) / 8;
+		};
+		if (implicit.isAxial) add(math::abs(implicit.axis.rate));
+		else if (joint.stiffness.shear == 0
+		        || largestRate(joint, bodies[joint.bodyA], bodies[joint.bodyB]) > limit)
+			visitRates(implicit, bodies, add);
 		return error;
 	}
 
@@ -123,7 +155,7 @@ namespace {
 	template <int n> timber::ModalVectors<n> ratesOf(const ImplicitJoint& implicit, const Vector3r& end)
 	{
 		if constexpr (n == 1) return std::sqrt(implicit.axis.response) * implicit.joint->normal;
-		else return implicit.joint->modes.rates(end);
+		else return implicit.modes->rates(end);
 	}
 
 	template <int n> timber::SpringSteps<n> springSteps(const ImplicitJoint& implicit, Real h, const Bodies& bodies)
@@ -231,13 +263,23 @@ ImplicitJointResult findImplicitJoints(
 		if (error > 0 && energy < 0) energy = energyOf(*engine, bodies);
 		return error > 0 && error > timber::yieldError * energy;
 	};
+	constexpr size_t none = std::numeric_limits<size_t>::max();
+	std::vector<size_t> firsts(set.joints.size(), none); // of the dashpots of each line, in `implicit`
 	for (size_t k = 0; k < set.joints.size(); ++k) {
 		timber::JointEntry& joint = set.joints[k];
 		bool isStiff = false;
 		if ((joint.isDamped() || alsoStiff) && holds(joint, bodies)) {
-			ImplicitJoint& one = implicit.emplace_back(withModes(set, k, scene.dt, bodies));
+			size_t& place = firsts[joint.line];
+			ImplicitJoint& one = implicit.emplace_back(implicitJoint(set, k));
+			ImplicitJoint* const first = place == none ? nullptr : &implicit[place];
+			addModes(one, first, scene.dt, bodies);
 			one.isStiff = isStiff = alsoStiff && (joint.isStiff() || one.isStiff || isFast(one));
-			if (!isStiff && !joint.isDamped()) implicit.pop_back();
+			if (!isStiff && joint.isDamped() && one.isAxial) {
+				if (first) first->axis.others += joint.dampingAt(one.tangent).of(one.axis.frequency());
+				else place = implicit.size() - 1;
+			}
+			const bool acts = isStiff || (joint.isDamped() && !(one.isAxial && first));
+			if (!acts) implicit.pop_back();
 		}
 		if (isStiff && !joint.isStiff()) { // its forces act in this step already
 			engine->elastic -= joint.total.energy;
@@ -256,11 +298,12 @@ Real dashpotPower(const Scene& scene, const Bodies& bodies)
 		const timber::JointEntry& joint = engine->jointSet().joints[k];
 		const bool areThere = bodyAt(scene, joint.bodyA) && bodyAt(scene, joint.bodyB);
 		if (!joint.isDamped() || !areThere || !holds(joint, bodies)) continue;
-		const ImplicitJoint one = withModes(engine->jointSet(), k, scene.dt, bodies);
+		ImplicitJoint one = implicitJoint(engine->jointSet(), k);
+		addModes(one, nullptr, scene.dt, bodies);
 		const timber::SolverBody &a = bodies[joint.bodyA], &b = bodies[joint.bodyB];
 		const timber::JointDamping damping = joint.dampingAt(one.tangent);
 		power += one.isAxial ? timber::dashpotPower(a, b, one.axis, damping)
-		                     : timber::dashpotPower(a, b, joint.modes, a.axes, damping);
+		                     : timber::dashpotPower(a, b, *one.modes, a.axes, damping);
 	}
 	return power;
 }
@@ -306,7 +349,7 @@ namespace {
 void prepareJoint(timber::ContactSolver& solver, const ImplicitJoint& implicit, const Bodies& bodies)
 {
 	if (implicit.isAxial) prepare<1>(solver, implicit, implicit.axis, bodies);
-	else prepare<6>(solver, implicit, implicit.joint->modes, bodies);
+	else prepare<6>(solver, implicit, *implicit.modes, bodies);
 }
 
 timber::PairForce storeJoint(const timber::ContactSolver& solver, const ImplicitJoint& implicit, const Bodies& bodies,

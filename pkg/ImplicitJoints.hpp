@@ -9,6 +9,7 @@ namespace yade {
 /// A joint in the solver.
 struct ImplicitJoint {
 	timber::JointEntry* joint;
+	timber::JointModes* modes; ///< of it
 	timber::JointSprings springs; ///< also broken ones
 	size_t index; ///< in the engine
 	bool isStiff; ///< its springs are in the solver

@@ -139,6 +139,7 @@ void JointEngine::takeJoints()
 	set.reset(new timber::JointSet);
 	for (const shared_ptr<TimberJoint>& joint : joints)
 		joint->moveTo(set);
+	set->findLines();
 }
 
 void JointEngine::computeForce(size_t index)

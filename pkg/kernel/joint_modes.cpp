@@ -100,6 +100,12 @@ namespace {
 		return now;
 	}
 
+	/// D of each mode. [1/s]
+	Vec6 damped(const JointDamping& damping, const Vec6& frequencies)
+	{
+		return frequencies.unaryExpr([&](double omega) { return damping.of(omega); });
+	}
+
 	Vec3 armOfB(const Vec3& armA, const SolverBody& a, const SolverBody& b)
 	{
 		return armA + a.position - b.position;
@@ -136,6 +142,8 @@ SpringAxis::SpringAxis(
         , onA(armA.cross(axis))
         , onB(armB.cross(axis))
         , stiffness(k)
+        , rate(axis.dot(relativeVelocity<double>(armA, armB, a.newVelocity, a.newSpin, b.newVelocity, b.newSpin)))
+        , others(0)
 {
 	assert(isUnit(axis) && stiffness > 0);
 	response = a.inverseMass + b.inverseMass + onA.dot(a.inverseInertia * onA) + onB.dot(b.inverseInertia * onB);
@@ -147,7 +155,7 @@ double dashpotPower(const SolverBody& a, const SolverBody& b, const JointModes& 
 	const Vec3 armA = axesA * modes.centre, armB = armOfB(armA, a, b),
 	           v = relativeVelocity<double>(armA, armB, a.velocity, a.spin, b.velocity, b.spin);
 	const Vec6 eta = modes.modes.transpose() * twistOf(axesA, v, a.spin, b.spin);
-	return modes.frequencies.unaryExpr([&](double omega) { return damping.of(omega); }).dot(eta.cwiseAbs2());
+	return damped(damping, modes.frequencies).dot(eta.cwiseAbs2());
 }
 
 double dashpotPower(const SolverBody& a, const SolverBody& b, const SpringAxis& line, const JointDamping& damping)
@@ -158,17 +166,17 @@ double dashpotPower(const SolverBody& a, const SolverBody& b, const SpringAxis& 
 }
 
 namespace {
-	/// frequencies: increasing; before, now: modal velocities before the step and without impulses of the solver
+	/// before, now: modal velocities before the step and without impulses of the solver; D: of each mode [1/s];
+	/// highest: frequency
 	template <int n>
-	void prepare(ModalConstraint<n>& c, const Modal<n>& before, const Modal<n>& now, const Modal<n>& frequencies,
-	        const JointDamping& damping, double h)
+	void prepare(ModalConstraint<n>& c, const Modal<n>& before, const Modal<n>& now, const Modal<n>& D,
+	        double highest, double h)
 	{
-		assert(h > 0 && damping.ratio >= 0 && damping.time >= 0 && damping.tangent >= 0 && isRotation(c.axesA));
+		assert(h > 0 && D.minCoeff() >= 0 && isRotation(c.axesA));
 		c.before = before;
 		c.velocity = now;
-		const Eigen::Array<double, n, 1> x
-		        = h / 2 * frequencies.array().unaryExpr([&](double omega) { return damping.of(omega); });
-		c.phase = h * frequencies[n - 1];
+		const Eigen::Array<double, n, 1> x = h / 2 * D;
+		c.phase = h * highest;
 		const double stiffest = std::max(stiffPhase, c.phase), square = stiffest * stiffest;
 		c.thresholdShare = stiffest > stiffPhase ? stiffToleranceShare / (square * square) : 1;
 		c.decay = x;
@@ -205,7 +213,8 @@ void prepareModes(ModalConstraint<6>& c, const SolverBodies& bodies, const Joint
 	}
 	const Vec6 before = twistOf(axesA, bodies.velocityBefore<double>(c.armA, c.armB), a.spin, b.spin),
 	           now = twistOf(axesA, bodies.velocity<double>(c.armA, c.armB), a.newSpin, b.newSpin);
-	prepare<6>(c, modes.modes.transpose() * before, modes.modes.transpose() * now, modes.frequencies, damping, h);
+	prepare<6>(c, modes.modes.transpose() * before, modes.modes.transpose() * now,
+	        damped(damping, modes.frequencies), modes.frequencies[5], h);
 }
 
 void prepareModes(ModalConstraint<1>& c, const SolverBodies& bodies, const SpringAxis& line, const Mat3& axesA,
@@ -218,8 +227,8 @@ void prepareModes(ModalConstraint<1>& c, const SolverBodies& bodies, const Sprin
 	c.armB = line.armB;
 	c.rows[0] = rowOf(c.basis, scale * line.onA, scale * line.onB, bodies);
 	const double before = c.basis.dot(bodies.velocityBefore<double>(line.armA, line.armB)),
-	             now = c.basis.dot(bodies.velocity<double>(line.armA, line.armB));
-	prepare<1>(c, Modal<1>(before), Modal<1>(now), Modal<1>(line.frequency()), damping, h);
+	             omega = line.frequency(), D = damping.of(omega) + line.others;
+	prepare<1>(c, Modal<1>(before), Modal<1>(scale * line.rate), Modal<1>(D), omega, h);
 }
 
 template <int n> void addSprings(ModalConstraint<n>& c, SpringSteps<n> springs)

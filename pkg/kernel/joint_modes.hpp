@@ -35,7 +35,8 @@
 ///
 /// A single spring that acts along an axis n has one mode with a stiffness, of the present placement:
 ///     Z = n / a^1/2,   omega = (k a)^1/2                                                         (5)
-/// with the response a along n where its force acts. Such joints have one scalar instead of six.
+/// with the response a along n where its force acts. Such joints have one scalar instead of six. The dashpots of several
+/// of them along one line, as of the sheets of a wall, add up to one.
 ///
 /// Glossary
 ///     D        damping       matrix of the joint's dashpots [N s/m, N s, N m s]
@@ -143,14 +144,15 @@ JointModes jointModes(const SolverBody& a, const SolverBody& b, const Mat3& axes
 
 /// The line along which the single spring of a joint acts: the only mode with a stiffness.
 struct SpringAxis {
-	Vec3 axis = Vec3::Zero(); ///< unit, fixed in A, world
-	Vec3 armA = Vec3::Zero(),
-	     armB = Vec3::Zero(); ///< from the centres of mass to the end in B, where forces act [m]
-	Vec3 onA = Vec3::Zero(), onB = Vec3::Zero(); ///< arms x axis [m]
-	double stiffness = 0; ///< [N/m]
-	double response = 0; ///< of the relative velocity along the axis to an impulse along it [1/kg]
+	Vec3 axis; ///< unit, fixed in A, world
+	Vec3 armA, armB; ///< from the centres of mass to the end in B, where forces act [m]
+	Vec3 onA, onB; ///< arms x axis [m]
+	double stiffness; ///< [N/m]
+	double response; ///< of the relative velocity along the axis to an impulse along it [1/kg]
+	double rate; ///< velocity of B relative to A along the axis after all forces but those of the solver [m/s]
+	double others; ///< D of the dashpots of other joints along the line [1/s]
 
-	SpringAxis() = default;
+	SpringAxis() { } // numbers are not set: joints of six modes have no line
 	SpringAxis(const SolverBody& a, const SolverBody& b, const Vec3& axis, const Vec3& armA, const Vec3& armB,
 	        double stiffness);
 	double frequency() const { return std::sqrt(stiffness * response); } ///< omega

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "joint_set.hpp"
+#include "constants.hpp"
 #include <algorithm>
 #include <cassert>
+#include <map>
 
 namespace timber {
 
@@ -19,7 +21,7 @@ SpringsState JointSet::state(const JointEntry& joint)
 {
 	const JointSprings all = springs(joint);
 	SpringsState state { all.broken(), all.all(&JointSprings::stretch), all.all(&JointSprings::force), {}, {}, {},
-		joint.half, joint.account, joint.modes };
+		joint.half, joint.account, modesOf(joint) };
 	if (const auto* slip = std::get_if<SlipSprings>(&joint.law)) {
 		state.plastic = slip->plastic();
 		state.largest = slip->largest();
@@ -60,9 +62,13 @@ void JointSet::change(size_t index, JointEntry parameters, const std::vector<Vec
 	if (!s.half.empty()) s.half.resize(count, none);
 	joint.half = std::move(s.half);
 	joint.account = s.account;
-	joint.modes = s.modes;
+	modesOf(joint) = s.modes;
 	joint.centreA = mean(anchorsA);
 	joint.centreB = mean(anchorsB);
+	joint.reach = 0;
+	for (size_t i = 0; i < count; ++i)
+		joint.reach = std::max(
+		        { joint.reach, (anchorsA[i] - joint.centreA).norm(), (anchorsB[i] - joint.centreB).norm() });
 	isChanged = true;
 }
 
@@ -70,13 +76,33 @@ size_t JointSet::take(JointSet& from, size_t index)
 {
 	const JointSprings old = from.springs(from.joints[index]);
 	const std::vector<SpringLanes> lanes(old.groups, old.groups + groupsOf(old.count));
-	JointEntry joint = std::move(from.joints[index]);
+	joints.push_back(std::move(from.joints[index]));
 	from.joints[index] = {};
-	joint.firstGroup = groups.size();
+	joints.back().firstGroup = groups.size();
 	groups.insert(groups.end(), lanes.begin(), lanes.end());
-	joints.push_back(std::move(joint));
+	const JointModes& modesThere = from.modesOf(from.joints[index]);
+	modesOf(joints.back()) = modesThere;
 	isChanged = from.isChanged = true;
 	return joints.size() - 1;
+}
+
+void JointSet::findLines()
+{
+	const auto areSame
+	        = [](const Vec3& a, const Vec3& b) { return (a - b).squaredNorm() < roundingLength * roundingLength; };
+	std::map<std::pair<int, int>, std::vector<size_t>> ofBodies;
+	for (size_t k = 0; k < joints.size(); ++k) {
+		JointEntry& joint = joints[k];
+		joint.line = k;
+		if (joint.springs != 1 || joint.stiffness.shear != 0) continue;
+		std::vector<size_t>& lines = ofBodies[{ joint.bodyA, joint.bodyB }];
+		const auto same = std::find_if(lines.begin(), lines.end(), [&](size_t other) {
+			return areSame(joints[other].normal, joint.normal)
+			        && areSame(joints[other].centreA, joint.centreA)
+			        && areSame(joints[other].centreB, joint.centreB);
+		});
+		same == lines.end() ? lines.push_back(k) : void(joint.line = *same);
+	}
 }
 
 void JointSet::breakSpring(JointEntry& joint, size_t spring)

@@ -30,7 +30,8 @@ struct JointEntry {
 	std::vector<Vec3> half;
 	double account = 0; ///< A of a stiff joint [J]
 	Vec3 centreA = Vec3::Zero(), centreB = Vec3::Zero(); ///< means of the springs' ends in the bodies' frames [m]
-	JointModes modes; ///< of a damped or stiff joint
+	double reach = 0; ///< largest distance of an end from its mean [m]
+	size_t line = 0; ///< index of the first joint along the line of this one, JointSet::findLines()
 
 	bool isBroken() const { return intact == 0; }
 	bool isStiff() const { return !half.empty(); } ///< the contact solver moves its springs
@@ -72,6 +73,7 @@ struct SpringsState {
 
 class JointSet {
 	std::vector<SpringLanes> groups; ///< of all joints
+	std::vector<JointModes> modes; ///< of damped and stiff joints, by index; apart, since walls have none
 
 public:
 	std::vector<JointEntry> joints; ///< new ones have no springs
@@ -79,6 +81,11 @@ public:
 
 	/// Valid until a joint is added or changed.
 	JointSprings springs(const JointEntry& joint) { return { groups.data() + joint.firstGroup, joint.springs }; }
+	JointModes& modesOf(const JointEntry& joint)
+	{
+		if (modes.size() < joints.size()) modes.resize(joints.size());
+		return modes[size_t(&joint - joints.data())];
+	}
 	/// Load at the forces of the last step. [-]
 	double load(const JointEntry&);
 	SpringsState state(const JointEntry&);
@@ -88,6 +95,8 @@ public:
 	        const std::vector<Vec3>& anchorsB, SpringsState);
 	/// Appends a joint of a set, which keeps one without springs in its place. Returns the index.
 	size_t take(JointSet& from, size_t joint);
+	/// Joints of one spring each that act along the same line between the same bodies: sheets of a wall.
+	void findLines();
 	void breakSpring(JointEntry&, size_t spring);
 	void breakAll(JointEntry&);
 };

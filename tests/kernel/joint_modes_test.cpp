@@ -455,3 +455,37 @@ TEST(Axis, MovesBodiesAsItsSixModesDo)
 			EXPECT_LT((one.velocities() - six.velocities()).norm(), 1e-11 * six.velocities().norm()) << h;
 		}
 }
+
+/// Dashpots along one line act as one: the sum moves the bodies as two do that the sweeps visit one after the other.
+TEST(Axis, DashpotsOfALineAddUp)
+{
+	Random random(66);
+	for (const double h : { 1e-5, 1e-4, 5e-4 })
+		for (int trial = 0; trial < 20; ++trial) {
+			Assembly a = axial(random);
+			const JointDamping first { 0.03, 2e-3, 0.4 }, second { 0.1, 1e-3, 1 };
+			std::vector<SolverBody> two = a.bodies, one = a.bodies;
+			ContactSolver apart, together;
+			apart.begin(two, h, 100000);
+			together.begin(one, h, 50);
+			SpringAxis line = lineOf(a);
+			for (const JointDamping& damping : { first, second }) {
+				const size_t place = apart.addJoint<1>(0, 1);
+				apart.prepareJoint<1>(place, line, Mat3::Identity(), damping);
+			}
+			line.others = second.of(line.frequency());
+			together.addJoint<1>(0, 1);
+			together.prepareJoint<1>(0, line, Mat3::Identity(), first);
+			apart.solve(1e-14);
+			together.solve(1e-14);
+			const double dissipated = together.joint<1>(0).dissipated;
+			// Rounding: of velocities of some m/s and energies of some 10 J
+			EXPECT_NEAR(apart.joint<1>(0).dissipated + apart.joint<1>(1).dissipated, dissipated,
+			        1e-11 * dissipated + 1e-14);
+			for (int k = 0; k < 2; ++k) {
+				const Vec3 changed = one[k].newVelocity - a.bodies[k].newVelocity;
+				EXPECT_LT((two[k].newVelocity - one[k].newVelocity).norm(),
+				        1e-11 * changed.norm() + 1e-14);
+			}
+		}
+}

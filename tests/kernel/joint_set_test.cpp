@@ -162,3 +162,39 @@ TEST(JointSet, LoadIsThatOfTheLastForces)
 	mixed.set.joints[2].strength.perJoint = true;
 	EXPECT_NEAR(mixed.set.load(mixed.set.joints[2]), sum / 10, 1e-15);
 }
+
+/// Joints of one spring along the same line have the first one's index; others are alone.
+TEST(JointSet, FindsJointsAlongTheSameLine)
+{
+	const Vec3 end(1, 2, 3), x = Vec3::UnitX(), y = Vec3::UnitY(), aside(0, 1e-6, 0);
+	struct Row {
+		int bodyA, bodyB;
+		Vec3 normal, anchorA, anchorB;
+		double shear;
+		size_t line;
+	};
+	const std::vector<Row> rows { { 0, 1, x, end, end, 0, 0 }, { 0, 2, x, end, end, 0, 1 },
+		{ 0, 1, x, end, end, 0, 0 }, { 0, 1, y, end, end, 0, 3 }, { 0, 1, x, end + aside, end, 0, 4 },
+		{ 0, 1, x, end, end + aside, 0, 5 }, { 0, 1, x, end, end, 10, 6 }, { 0, 2, x, end, end, 0, 1 },
+		{ 1, 0, x, end, end, 0, 8 }, { 0, 1, x, end, end, 0, 0 } };
+	JointSet set;
+	set.joints.resize(rows.size() + 1);
+	for (size_t k = 0; k < rows.size(); ++k) {
+		JointEntry parameters;
+		parameters.bodyA = rows[k].bodyA;
+		parameters.bodyB = rows[k].bodyB;
+		parameters.normal = rows[k].normal;
+		parameters.stiffness = { 1e3, rows[k].shear };
+		set.change(k, parameters, { rows[k].anchorA }, { rows[k].anchorB }, {});
+	}
+	JointEntry two;
+	two.bodyA = 0;
+	two.bodyB = 1;
+	two.normal = x;
+	two.stiffness = { 1e3, 0 };
+	set.change(rows.size(), two, { end, end }, { end, end }, {});
+	set.findLines();
+	for (size_t k = 0; k < rows.size(); ++k)
+		EXPECT_EQ(set.joints[k].line, rows[k].line) << k;
+	EXPECT_EQ(set.joints.back().line, rows.size());
+}
