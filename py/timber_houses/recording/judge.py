@@ -33,16 +33,21 @@ class Judged:
 
 
 class Judge:
-    """levels: damage.Level in the order of the sampled groups; columns: (structure, storey) of the sampled axes;
-    known: {structure: Judged} of a checkpoint"""
+    """levels: damage.Level in the order of the sampled groups, those of a structure from below; columns: (structure,
+    storey) of the sampled axes; known: {structure: Judged} of a checkpoint"""
 
     def __init__(self, levels, columns=(), known=None):
-        names = list(dict.fromkeys(level.structure for level in levels))
-        groups = {name: [k for k, level in enumerate(levels) if level.structure == name] for name in names}
-        self._groups, self._heights = groups, {name: [levels[k].height for k in groups[name]] for name in names}
-        self._columns = {(name, storey): [k for k, column in enumerate(columns) if column == (name, storey)]
-                         for name in names for storey in range(1, len(groups[name]) + 1)}
-        self.structures = known or {name: Judged.of(len(groups[name])) for name in names}
+        names = [level.structure for level in levels]
+        self._levels = {name: slice(names.index(name), names.index(name) + names.count(name)) for name in names}
+        self._heights = np.array([level.height for level in levels])
+        self._lowest = [chosen.start for chosen in self._levels.values()]
+        self._columns = np.full((len(levels), len(columns)), -1)  # of each level's storey; -1: no further one
+        for name, chosen in self._levels.items():
+            for level in range(chosen.start, chosen.stop):
+                found = [k for k, column in enumerate(columns) if column == (name, level - chosen.start + 1)]
+                self._columns[level, :len(found)] = found
+        self._columns = self._columns[:, :(self._columns >= 0).sum(1).max(initial=0)]
+        self.structures = known or {name: Judged.of(names.count(name)) for name in self._levels}
 
     @property
     def main(self):
@@ -50,29 +55,29 @@ class Judge:
 
     def histories(self, samples):
         """{structure: History} of samples, the main one first."""
-        return {name: samples.history(groups, self._heights[name]) for name, groups in self._groups.items()}
+        return {name: samples.history(chosen, self._heights[chosen]) for name, chosen in self._levels.items()}
 
     def judge(self, samples, axes):
         """Take account of further samples. samples: Samples; axes: (F, C, 3) of the columns, NaN: without a joint"""
         if not samples.samples:
             return
-        displacement = samples.displacement
+        moved = samples.displacement[:, :len(self._heights)]
+        drift, drop = drifts(moved, self._heights, self._lowest), -moved[:, :, 2] / self._heights
+        size = np.abs(drift)
+        peak, last = np.fmax.reduce(size, 0), np.where(np.isnan(drift[-1]), 0.0, drift[-1])
+        largest, median = column_drifts(at_columns(axes, self._columns))
         for name, judged in self.structures.items():
-            moved = displacement[:, self._groups[name]]
-            drift = drifts(moved, self._heights[name])
-            self._judge(judged, samples.time, drift, -moved[:, :, 2] / self._heights[name])
-            for storey in range(len(self._heights[name])):
-                chosen = slice(2 * storey, 2 * storey + 2)
-                found = at_columns(axes[:, self._columns[name, storey + 1]])
-                for peaks, values in zip((judged.column_peak, judged.median_peak), found):
-                    peaks[chosen] = np.maximum(peaks[chosen], values).tolist()
+            chosen = self._levels[name]
+            judged.drift = last[chosen].ravel().tolist()
+            for peaks, values in ((judged.peak, peak), (judged.column_peak, largest), (judged.median_peak, median)):
+                peaks[:] = np.fmax(peaks, values[chosen].ravel()).tolist()
+        if (size > TILT.drift).any() or (drop > FALL).any():
+            for name, judged in self.structures.items():
+                self._note_fall(judged, samples.time, size[:, self._levels[name]], drop[:, self._levels[name]])
 
     @staticmethod
-    def _judge(judged, time, drift, drop):
-        """drift: (F, L, 2); drop: (F, L) over the heights of the storeys"""
-        size = np.abs(drift)
-        judged.drift = np.where(np.isnan(drift[-1]), 0.0, drift[-1]).ravel().tolist()
-        judged.peak = np.fmax(judged.peak, np.fmax.reduce(size, 0).ravel()).tolist()
+    def _note_fall(judged, time, size, drop):
+        """size: (F, L, 2) of the drifts; drop: (F, L) over the heights of the storeys"""
         tilted, fallen = _first((size > TILT.drift).any((1, 2))), _first((drop > FALL).any(1))
         if judged.tilt_s is None and judged.fall_s is None and tilted is not None and tilted <= (
                 len(time) if fallen is None else fallen):
@@ -87,15 +92,22 @@ def _first(flags):
     return int(np.argmax(flags)) if flags.any() else None
 
 
-def at_columns(axes):
-    """(largest, largest median) of the drifts at columns, each (2,) north-south and east-west [-]. axes: (F, C, 3)"""
-    stands = axes[..., 2] >= math.cos(FALLEN_ANGLE)  # not of NaN
-    some = stands.any(1)
-    if not some.any():
-        return np.zeros(2), np.zeros(2)
-    drift = axes[some][..., NORTH_EAST]
-    drift[~stands[some]] = np.nan
-    largest, count = np.fmax.reduce(np.abs(drift), (0, 1)), stands[some].sum(1)
-    drift.sort(1)  # NaN behind; np.nanmedian takes ten times as long
-    frames = np.arange(len(drift))
-    return largest, np.abs((drift[frames, (count - 1) // 2] + drift[frames, count // 2]) / 2).max(0)
+def at_columns(axes, columns):
+    """(F, L, C, 2) drifts at columns, north-south and east-west [-]; NaN of one that does not count. axes: (F, C, 3);
+    columns: (L, C) of each storey, -1: none"""
+    stands = axes[..., 2:] >= math.cos(FALLEN_ANGLE)  # not of NaN
+    drift = np.where(stands, axes[..., NORTH_EAST], np.nan)[:, columns]
+    drift[:, columns < 0] = np.nan
+    return drift
+
+
+def column_drifts(drift):
+    """Largest drifts at columns, and largest medians over them: (L, 2) each [-]; NaN without columns that count.
+    drift: of at_columns()"""
+    frames, levels, columns = drift.shape[:3]
+    if not columns:
+        return np.full((2, levels, 2), np.nan)
+    ordered, count = np.sort(drift, 2), np.isfinite(drift[..., 0]).sum(2)  # NaN behind; np.nanmedian is slower
+    frame, level = np.ogrid[:frames, :levels]
+    middle = ordered[frame, level, (count - 1) // 2] + ordered[frame, level, count // 2]  # NaN without a column
+    return np.fmax.reduce(np.abs(drift), (0, 2)), np.fmax.reduce(np.abs(middle / 2), 0)

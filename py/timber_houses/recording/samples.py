@@ -5,7 +5,7 @@ import numpy as np
 from .history import DIRECTIONS, History
 from .series import Series
 
-NORTH_EAST = [1, 0]  # components of a vector (east, north, up) in the order of DIRECTIONS
+NORTH_EAST = slice(1, None, -1)  # components of a vector (east, north, up) in the order of DIRECTIONS
 FIRST_GROUP = "x0 [m]"  # column of Sampler at which the groups begin, six columns each
 
 
@@ -36,20 +36,21 @@ class Samples(Series):
         return np.column_stack([self.time, chosen.reshape(self.samples, 3 * chosen.shape[1])])
 
     def history(self, groups, heights):
-        """History of storeys below the levels of these groups, from below; without samples of a scene whose numbers
-        have failed. heights: of the storeys [m]"""
+        """History of storeys; without samples of a scene whose numbers have failed. groups: slice of those of their
+        levels, from below; heights: of the storeys [m]"""
         moved = self.displacement[:, groups]
         drift, parts, names = drifts(moved, heights), [self.time], []
-        for k in range(len(groups)):
+        for k in range(moved.shape[1]):
             parts += [drift[:, k], -moved[:, k, 2]]
             names += [*(f"drift_{direction}{k + 1} [-]" for direction in DIRECTIONS), f"drop{k + 1} [m]"]
         table = np.column_stack([*parts, self.rows[:, 1:self.first]])
         return History(["time [s]", *names, *self.columns[1:self.first]], table[np.isfinite(table).all(1)])
 
 
-def drifts(displacement, heights):
+def drifts(displacement, heights, lowest=0):
     """(F, L, 2) drifts of storeys, north-south and east-west [-]. displacement: (F, L, 3) of the levels from below [m];
-    heights: of the storeys [m]"""
-    steps = displacement[:, :, NORTH_EAST]
-    steps[:, 1:] -= displacement[:, :-1, NORTH_EAST]
-    return steps / np.array(heights, float).reshape(1, -1, 1)
+    heights: of the storeys [m]; lowest: numbers of the levels of storeys 1"""
+    moved = displacement[:, :, NORTH_EAST]
+    steps = np.diff(moved, axis=1, prepend=0.0)
+    steps[:, lowest] = moved[:, lowest]
+    return steps / np.array(heights, float)[:, None]

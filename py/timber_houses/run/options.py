@@ -66,8 +66,8 @@ class RunOptions(MotionRequest):
     joint_damping: float = option(float,
                                   "damping ratio of the sway at small drift and of all joints (default: the house's"
                                   " own); makes wrecks come to rest", "RATIO", 0, 1, group="run")
-    checkpoint: float = option(float, "simulated time between checkpoints [s] (default 2), 0: none", "S", 0,
-                               MAX_DURATION, 2.0, group="run", decides=False)
+    checkpoint: float = option(float, "simulated time between checkpoints [s] (default 5), 0: none", "S", 0,
+                               MAX_DURATION, 5.0, group="run", decides=False)
     no_views: bool = option(bool, "make no pictures (scripts/show/show_run.py makes them later)", group="run",
                             decides=False)
     no_frames: bool = option(bool, "record no frames and make no pictures", group="run", decides=False)
