@@ -55,7 +55,7 @@ def telling_view(run):
 
 def write(path, figure):
     """Write a figure as PNG with its own resolution; returns the path."""
-    return save(path, Image.fromarray(figures.image_of(figure)))
+    return save(path, figures.image_of(figure))
 
 
 def save(path, picture):

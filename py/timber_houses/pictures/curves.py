@@ -115,19 +115,18 @@ def draw_levels(axis, largest):
 def draw_breaks(axis, frames, states):
     """Numbers of joints broken during the run by kind, of broken wall sheets, of partly broken ones. states (F, J)"""
     kinds = np.array(frames.joints.kind)
-    sheets = [sheet_states(frames.joints, row == "broken") for row in states]
+    sheets = sheet_states(frames.joints, states == "broken")
     for kind in dict.fromkeys(kinds[~of_walls(frames.joints)]):
         broken = (states[:, kinds == kind] == "broken").sum(1)
         name = drawable(kind.replace("_", "-"), 20)
         axis.step(frames.time, broken, where="post", lw=1.3, color=JOINT_KINDS.get(kind, colors.GREY), label=name)
-    if any(sheets):
-        axis.step(frames.time, [row.count("broken") for row in sheets], where="post", lw=1.3, color="black",
-                  label="wall sheets")
-    partly = (states == "partly").sum(1) + [row.count("partly") for row in sheets]
+    if sheets.size:
+        axis.step(frames.time, (sheets == "broken").sum(1), where="post", lw=1.3, color="black", label="wall sheets")
+    partly = (states == "partly").sum(1) + (sheets == "partly").sum(1)
     axis.step(frames.time, partly, where="post", color="black", lw=0.9, ls=":", label="partly broken,\nall kinds")
     axis.yaxis.get_major_locator().set_params(integer=True)
     axis.set_ylim(0, max(1, axis.get_ylim()[1]))
-    label(axis, "broken joints\nand wall sheets" if any(sheets) else "broken joints")
+    label(axis, "broken joints\nand wall sheets" if sheets.size else "broken joints")
     legend(axis)
 
 

@@ -170,16 +170,16 @@ def save(figure, stem, endings=("png",)):
 
 @default_style()
 def image_of(figure):
-    """(rows, columns, 3) uint8 picture of a figure with its own resolution."""
+    """PIL.Image of a figure with its own resolution, RGB."""
     fonts.apply(figure)
     figure.canvas.draw()
-    return np.asarray(figure.canvas.buffer_rgba())[..., :3]
+    return Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB")
 
 
 def png(picture, dpi):
-    """PNG file of a picture (rows, columns, 3) uint8. dpi: resolution [1/inch]"""
+    """PNG file of a PIL.Image. dpi: resolution [1/inch]"""
     content = io.BytesIO()
-    Image.fromarray(picture).save(content, "PNG", compress_level=PNG_LEVEL, dpi=(dpi, dpi))
+    picture.save(content, "PNG", compress_level=PNG_LEVEL, dpi=(dpi, dpi))
     return content.getvalue()
 
 

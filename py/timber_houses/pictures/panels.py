@@ -9,7 +9,7 @@ from functools import cache
 
 import numpy as np
 
-from ..recording.record import placed, rotated
+from ..recording.record import rotated
 from ..recording.walls import of_walls, sheet_states
 
 THICKNESS, LAYER = 0.02, 0.03
@@ -45,13 +45,24 @@ class Plate:
 
 def plates(frames):
     """Plates of a run, vertices in the body frames of their columns."""
-    return [replace(plate, vertices=_local(frames, plate.body, plate.vertices)) for plate in _plates(_bays(frames))]
+    e = frames.elements
+    return _moved(_plates(_bays(frames)), lambda body, places: _local(e.position[body], e.orientation[body], places))
 
 
 def placed_plates(plates, states, position, orientation):
     """The Plates that show states of the sheets, in the world. position, orientation: of the elements"""
-    return [replace(plate, vertices=placed(plate.vertices, position[plate.body], orientation[plate.body]))
-            for plate in plates if plate.shows(states)]
+    return _moved([plate for plate in plates if plate.shows(states)],
+                  lambda body, vertices: position[body] + rotated(orientation[body], vertices))
+
+
+def _moved(plates, move):
+    """Plates in another frame. move: (bodies (n,), vertices (n, 3)) -> (n, 3)"""
+    if not plates:
+        return []
+    counts = [len(plate.vertices) for plate in plates]
+    body = np.repeat([plate.body for plate in plates], counts)
+    moved = np.split(move(body, np.concatenate([plate.vertices for plate in plates])), np.cumsum(counts)[:-1])
+    return [replace(plate, vertices=vertices) for plate, vertices in zip(plates, moved)]
 
 
 def plates_as_built(model):
@@ -74,12 +85,12 @@ def states(frames, frame):
 
 def mark_anchors(frames):
     """((J,) bodies, (J, 3) places in their frames [m]) of the marks of joints: those of a sheet are on its plate."""
-    j = frames.joints
-    body, anchor = np.array(j.a), np.array(j.anchor, float)
-    places = [(low, _local(frames, low, _place(corners, *MARKS[opening])))
-              for low, _, corners, opening in _bays(frames)]
-    for k in np.flatnonzero(of_walls(j)):
-        body[k], anchor[k] = places[j.sheet[k]]
+    e, j = frames.elements, frames.joints
+    body, anchor, halves = np.array(j.a), np.array(j.anchor, float), of_walls(j)
+    places = np.array([_place(corners, *MARKS[opening]) for _, _, corners, opening in _bays(frames)]).reshape(-1, 3)
+    sheet = np.asarray(j.sheet)[halves]
+    body[halves] = low = np.asarray(frames.sheets.low)[sheet]
+    anchor[halves] = _local(e.position[low], e.orientation[low], places[sheet])
     return body, anchor
 
 
@@ -108,14 +119,14 @@ def bay_corners(low, high):
 def _bays(frames):
     """[(low, high, corners, opening)] of the sheets of a run."""
     s = frames.sheets
-    return [(int(low), int(high), bay_corners(frames.corners_at_start(low), frames.corners_at_start(high)), opening)
+    corners = {int(column): frames.corners_at_start(column) for column in {*s.low, *s.high}}
+    return [(int(low), int(high), bay_corners(corners[low], corners[high]), opening)
             for low, high, opening in zip(s.low, s.high, s.opening)]
 
 
-def _local(frames, body, places):
-    """Places in the world before the first step [m] in the frame of a body."""
-    e = frames.elements
-    return rotated(e.orientation[body] * (1, -1, -1, -1), places - e.position[body])
+def _local(position, orientation, places):
+    """Places in the world (n, 3) in the frames of bodies. [m]"""
+    return rotated(orientation * (1, -1, -1, -1), places - position)
 
 
 def _plates(bays):

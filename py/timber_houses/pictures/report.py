@@ -100,7 +100,8 @@ def page(stills):
 
 def picture(figure, cut=0.0):
     """A figure without its upper part of a height [inch], as the address of an image."""
-    shown = image_of(figure)[round(cut * figure.dpi):]
+    page = image_of(figure)
+    shown = page.crop((0, round(cut * figure.dpi), *page.size))
     return embedded(png(shown, figure.dpi), "png")
 
 

@@ -92,7 +92,7 @@ class Stage:
     def _sheathe(self, time):
         """Take the plates that show the states of the wall sheets at a time [s]. self.sheets: the states shown"""
         state = states(self.frames, frame_before(self.frames, time))
-        if state != self.sheets:
+        if not np.array_equal(state, self.sheets):
             self.sheets = state
             self.sheathing.release()
             self.sheathing = Bodies([(plate.body, plate.vertices, plate.faces, colors.SHEETS[state[plate.sheet]])

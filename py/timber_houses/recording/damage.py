@@ -88,14 +88,15 @@ class DamageSurvey:
         counted = broken & ~self._of_walls
         in_storey = {name: storey == name for name in dict.fromkeys(self.joints.storey)}
         sheets = sheet_states(self.joints, broken)
+        gone, partly_gone = (int((sheets == state).sum()) for state in ("broken", "partly"))
         return Broken(
-            **vars(self.count_joints(broken)) | {"wall_sheets": sheets.count("broken") if sheets else None},
+            **vars(self.count_joints(broken)) | {"wall_sheets": gone if len(sheets) else None},
             by_side={side: int((counted & there).sum()) for side, there in on_side.items()},
             by_storey={name: int((counted & there).sum()) for name, there in in_storey.items()},
             by_place={name: {side: self.count_joints(broken & there & beside) for side, beside in on_side.items()}
                       for name, there in in_storey.items()},
             partly_broken=int(partly.sum()),
-            wall_sheets_partly=sheets.count("partly") if sheets else None,
+            wall_sheets_partly=partly_gone if len(sheets) else None,
             springs=springs,
             damaged_at_start=self.count_joints(self._damaged),
         )

@@ -16,17 +16,18 @@ def wall_sheets(joints):
     return sheets
 
 
-def state(broken):
-    """'broken' when all joints of a sheet are, 'partly' when some are, else 'whole'. broken: bool of each"""
-    return "broken" if all(broken) else "partly" if any(broken) else "whole"
-
-
 def sheet_states(joints, broken):
-    """['whole', 'partly' or 'broken'] for each wall sheet. joints: frames.Joints; broken: (J,) bool"""
-    return [state(broken[sheet]) for sheet in wall_sheets(joints)]
+    """(..., S) 'broken' when all joints of a wall sheet are, 'partly' when some are, else 'whole'. joints:
+    frames.Joints; broken: (..., J) bool"""
+    halves = np.flatnonzero(of_walls(joints))
+    sheet = np.asarray(joints.sheet)[halves]
+    number = np.bincount(sheet)
+    gone = np.zeros((*broken.shape[:-1], len(number)), int)
+    np.add.at(gone, (..., sheet), broken[..., halves])
+    return np.select([gone == number, gone > 0], ["broken", "partly"], "whole")
 
 
 def count_apart(joints, broken):
     """((broken, all) of the joints without walls, (broken, all) of the wall sheets). broken: (J,) bool"""
     sheets, other = sheet_states(joints, broken), ~of_walls(joints)
-    return (int((broken & other).sum()), int(other.sum())), (sheets.count("broken"), len(sheets))
+    return (int((broken & other).sum()), int(other.sum())), (int((sheets == "broken").sum()), len(sheets))
