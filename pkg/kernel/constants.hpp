@@ -282,9 +282,6 @@ constexpr double springTolerance = 1e-13;
 constexpr int springIterations = 30;
 /// Smallest share of a Newton step that is tried. [-]
 constexpr double springLeastShare = 1e-3;
-/// Part of the residual up to which a step with the slope of an earlier one is taken. [-] Linear springs leave rounding
-/// alone; larger: more iterations once a spring reaches its strength.
-constexpr double lastSlopeReduction = 1e-3;
 
 /// Rotation of a joint's bodies against each other from which on its vibration modes are computed again. [rad] The
 /// modes vary only with it.

@@ -272,6 +272,18 @@ SpringTrial BrittleSprings::trial(size_t, const Vec3& to, bool) const
 	return state;
 }
 
+bool BrittleSprings::linearForces(const std::vector<Vec3>& stretches, std::vector<Vec3>& forces) const
+{
+	double sum = 0, largest = 0;
+	for (size_t i = 0; i < stretches.size(); ++i) {
+		forces[i] = stiffness * stretches[i];
+		const double square = forces[i].squaredNorm();
+		if (strength.perJoint) sum += std::sqrt(square);
+		largest = std::max(largest, square);
+	}
+	return strength.perJoint ? sum <= strength.strength : largest <= strength.strength * strength.strength;
+}
+
 double BrittleSprings::limit(std::vector<SpringTrial>& states, std::vector<Vec3>& shared) const
 {
 	double sum = 0;

@@ -26,7 +26,7 @@ SpringsState JointSet::state(const JointEntry& joint)
 		state.plastic = slip->plastic();
 		state.largest = slip->largest();
 	}
-	if (const auto* wall = std::get_if<WallSprings>(&joint.law)) state.wall = wall->histories;
+	if (const auto* wall = std::get_if<WallSprings>(&joint.law)) state.wall = wall->histories();
 	return state;
 }
 
@@ -58,7 +58,7 @@ void JointSet::change(size_t index, JointEntry parameters, const std::vector<Vec
 		slip->setHistories(std::move(s.plastic), std::move(s.largest));
 	}
 	s.wall.resize(count);
-	if (auto* wall = std::get_if<WallSprings>(&joint.law)) wall->histories = std::move(s.wall);
+	if (auto* wall = std::get_if<WallSprings>(&joint.law)) wall->setHistories(s.wall);
 	if (!s.half.empty()) s.half.resize(count, none);
 	joint.half = std::move(s.half);
 	joint.account = s.account;

@@ -51,6 +51,12 @@ public:
 	virtual double steepestFall() const { return 0; }
 	/// Whether forces are linear in the stretches up to the strength.
 	virtual bool isLinear() const { return false; }
+	/// Forces of linear springs at trial stretches, if the strength admits them; else false.
+	virtual bool linearForces(const std::vector<Vec3>& stretches, std::vector<Vec3>& forces) const
+	{
+		(void)stretches, (void)forces;
+		return false;
+	}
 	/// Applies a strength that the springs share to trial states. shared: out, unit vectors of the forces that it
 	/// limits, of each spring. Returns kappa: the tangent of all forces is that of the states minus kappa s s^T
 	/// with the vector s of all entries of `shared` [N/m]; 0 without such a limit, or below it.

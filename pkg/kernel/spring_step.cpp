@@ -52,6 +52,8 @@ SpringSteps<n>::SpringSteps(SpringLaw& l, std::vector<SpringStep<n>> steps, doub
         : law(&l)
         , states(steps.size())
         , shared(steps.size(), Vec3::Zero())
+        , stretches(steps.size())
+        , forces(steps.size())
         , springs(std::move(steps))
         , account(stored)
 {
@@ -149,32 +151,33 @@ template <int n> ModalMatrix<n> SpringSteps<n>::slope(const Step& step, double k
 	return matrix;
 }
 
-/// A step from `after` with the slope of an earlier one. Returns whether r falls to lastSlopeReduction of itself.
-template <int n> bool SpringSteps<n>::followLastSlope(const Step& step, const Vec& free, Vec& after, NewtonPoint& point)
+/// The same of linear springs, for which (2) is the mean. Returns whether none reaches the strength.
+template <int n> bool SpringSteps<n>::tryLinear(double h, const Vec& after)
 {
-	const Vec last = after;
-	after -= inverseSlope * point.residual;
-	const double kappa = tryStretches(step.h, after);
-	const Vec r = residual(step, free, after);
-	hasSlope = r.norm() < lastSlopeReduction * point.residual.norm();
-	if (hasSlope) point = { r, kappa };
-	else {
-		after = last;
-		tryStretches(step.h, after);
+	for (size_t i = 0; i < springs.size(); ++i)
+		stretches[i] = springs[i].placed + h / 2 * (springs[i].rates * after);
+	if (!law->linearForces(stretches, forces)) return false;
+	for (size_t i = 0; i < springs.size(); ++i) {
+		springs[i].stretch = stretches[i];
+		springs[i].force = (springs[i].start.force + forces[i]) / 2;
 	}
-	return hasSlope;
+	return true;
 }
 
-/// M^-1 r with the slope M of (3).
-template <int n> Modal<n> SpringSteps<n>::newtonStep(const Step& step, const NewtonPoint& point)
+/// M^-1 r with the slope M of (3) at `after`.
+template <int n>
+Modal<n> SpringSteps<n>::newtonStep(const Step& step, const Vec& free, const Vec& after, const NewtonPoint& point)
 {
 	if constexpr (n == 1) return point.residual / slope(step, point.kappa)(0, 0);
 	else {
 		if (springs.size() == 1 && !law->isLinear())
 			return singleSpringStep(springs[0], tangentOf(0, point.kappa), step, point.residual);
 		const Eigen::LDLT<Mat> factors(slope(step, point.kappa));
-		hasSlope = law->isLinear();
-		if (hasSlope) inverseSlope = factors.solve(Mat::Identity());
+		isAffine = law->isLinear() && tryLinear(step.h, after);
+		if (isAffine) {
+			inverseSlope = factors.solve(Mat::Identity());
+			base = after - inverseSlope * (point.residual + free);
+		}
 		return factors.solve(point.residual);
 	}
 }
@@ -182,8 +185,7 @@ template <int n> Modal<n> SpringSteps<n>::newtonStep(const Step& step, const New
 /// A Newton step from `after`, shortened until r falls. Returns whether it does.
 template <int n> bool SpringSteps<n>::improve(const Step& step, const Vec& free, Vec& after, NewtonPoint& point)
 {
-	if (hasSlope && followLastSlope(step, free, after, point)) return true;
-	const Vec change = newtonStep(step, point), last = after;
+	const Vec change = newtonStep(step, free, after, point), last = after;
 	for (double share = 1; share > springLeastShare; share /= 2) {
 		after = last - share * change;
 		const double kappa = tryStretches(step.h, after);
@@ -201,6 +203,10 @@ template <int n> bool SpringSteps<n>::improve(const Step& step, const Vec& free,
 
 template <int n> Modal<n> SpringSteps<n>::impulse(const Step& step, const Vec& free, Vec after)
 {
+	if (isAffine) {
+		const Vec root = base + inverseSlope * free;
+		if (tryLinear(step.h, root)) return withinAccount(step, free, root - free);
+	}
 	const double kappa = tryStretches(step.h, after),
 	             size = (free - applied).squaredNorm() + free.squaredNorm() + step.before.squaredNorm();
 	NewtonPoint point { residual(step, free, after), kappa };
@@ -246,9 +252,8 @@ template <int n> void SpringSteps<n>::finish(const Step& step, const Vec& impuls
 {
 	const Vec sum = step.before + after;
 	account -= (impulse + step.decay.cwiseProduct(sum) + applied).dot(sum) / 2;
-	std::vector<Vec3> forces;
-	for (const SpringStep<n>& s : springs)
-		forces.push_back(s.force);
+	for (size_t i = 0; i < springs.size(); ++i)
+		forces[i] = springs[i].force;
 	tryStretches(step.h, after);
 	double energy = 0;
 	for (size_t i = 0; i < springs.size(); ++i) {

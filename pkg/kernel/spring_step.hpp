@@ -16,7 +16,7 @@
 /// part of its spring impulses that E contains already, the velocity after the step is the root of
 ///     r = eta' - E + x (eta + eta') + h sum G^T F + q_a                                           (3)
 /// which increases with eta' (forces do not fall): Newton's method with the matrix 1 + x + h2/4 sum G^T f' G, f' the
-/// tangents.
+/// tangents. Below the strength linear springs need one matrix a step: eta' is an affine function of E.
 ///
 /// A law that softens does so within the step where its steepest fall k_f leaves the slope of (3) above 1/2,
 ///     h2 k_f sum |G|2 < 1,
@@ -73,9 +73,11 @@ template <int n> class SpringSteps {
 	SpringLaw* law = nullptr;
 	std::vector<SpringTrial> states; ///< of the springs at z1
 	std::vector<Vec3> shared; ///< of SpringLaw::limit()
+	std::vector<Vec3> stretches, forces; ///< of SpringLaw::linearForces()
 	Vec applied = Vec::Zero(); ///< q_a
-	Mat inverseSlope; ///< of (3), of the last Newton step of linear springs: it serves until they reach the strength
-	bool hasSlope = false;
+	Mat inverseSlope; ///< of linear springs below the strength: eta' = base + inverseSlope E is the root of (3)
+	Vec base; ///< likewise
+	bool isAffine = false; ///< both are known
 	bool keepsForce = true; ///< the step does not resolve the fall of the force
 
 	/// r of (3), and kappa of SpringLaw::limit().
@@ -88,8 +90,8 @@ template <int n> class SpringSteps {
 	Vec residual(const Step& step, const Vec& free, const Vec& after) const;
 	Mat3 tangentOf(size_t spring, double kappa) const;
 	Mat slope(const Step& step, double kappa) const;
-	Vec newtonStep(const Step& step, const NewtonPoint& point);
-	bool followLastSlope(const Step& step, const Vec& free, Vec& after, NewtonPoint& point);
+	Vec newtonStep(const Step& step, const Vec& free, const Vec& after, const NewtonPoint& point);
+	bool tryLinear(double h, const Vec& after);
 	bool improve(const Step& step, const Vec& free, Vec& after, NewtonPoint& point);
 	Vec withinAccount(const Step& step, const Vec& free, const Vec& impulse) const;
 

@@ -337,6 +337,21 @@ WallSprings::WallSprings(const WallLaw& law_, const Vec3& axis_)
 	assert(law.isValid() && isUnit(axis));
 }
 
+std::vector<WallHistory> WallSprings::histories() const
+{
+	std::vector<WallHistory> all;
+	for (const Spring& spring : springs)
+		all.push_back(spring.history);
+	return all;
+}
+
+void WallSprings::setHistories(const std::vector<WallHistory>& all)
+{
+	springs.assign(all.size(), {});
+	for (size_t i = 0; i < all.size(); ++i)
+		springs[i].history = all[i];
+}
+
 SpringState WallSprings::along(const WallForce& force) const
 {
 	return { force.history.force * axis, force.energy, force.dissipated, false,
@@ -345,16 +360,16 @@ SpringState WallSprings::along(const WallForce& force) const
 
 SpringTrial WallSprings::trial(size_t spring, const Vec3& to, bool keepsForce) const
 {
-	const WallHistory& history = histories[spring];
+	const WallHistory& history = springs[spring].history;
 	const WallForce force = keepsForce ? law.hold(history, axis.dot(to)) : law.advance(history, axis.dot(to));
 	return { along(force), std::max(0., force.tangent) * axis * axis.transpose() };
 }
 
 SpringState WallSprings::commit(size_t spring, const Vec3& to)
 {
-	bounds.resize(histories.size());
-	const WallForce force = law.advance(histories[spring], bounds[spring], axis.dot(to));
-	histories[spring] = force.history;
+	auto& [history, bounds] = springs[spring];
+	const WallForce force = law.advance(history, bounds, axis.dot(to));
+	history = force.history;
 	SpringState state = along(force);
 	state.breaks = isSpent(spring);
 	return state;

@@ -158,20 +158,24 @@ public:
 
 /// The springs of a wall. Signs and frames as in slip_law.hpp: stretches are projected on the axis.
 class WallSprings : public SpringLaw {
+	struct Spring {
+		WallHistory history;
+		WallLaw::Bounds bounds;
+	};
 	WallLaw law;
 	Vec3 axis;
-	std::vector<WallLaw::Bounds> bounds; ///< of each spring
+	std::vector<Spring> springs;
 
 	SpringState along(const WallForce& force) const;
 
 public:
-	std::vector<WallHistory> histories; ///< of each spring
-
 	/// axis: unit vector in the frame of A
 	WallSprings(const WallLaw& law_, const Vec3& axis_);
+	std::vector<WallHistory> histories() const; ///< of each spring
+	void setHistories(const std::vector<WallHistory>&);
 	SpringTrial trial(size_t spring, const Vec3& to, bool keepsForce) const override;
 	SpringState commit(size_t spring, const Vec3& to) override;
-	bool isSpent(size_t spring) const override { return law.isSpent(histories[spring]); }
+	bool isSpent(size_t spring) const override { return law.isSpent(springs[spring].history); }
 	double steepestFall() const override { return law.steepestFall(); }
 };
 
