@@ -4,7 +4,8 @@ from .limits import MAX_ELEMENTS, MAX_LINES, MAX_NAME, MAX_PAIRS
 from .schema import REQUIRED, Choice, Either, Flag, ListOf, MapOf, Number, Pair, Record, Text, Variants
 
 SIDES = ("north", "south", "east", "west")
-KINDS = ("foundation", "sill", "column", "beam", "rafter", "floor", "brace", "roof", "snow", "ground")
+MEMBERS = ("foundation", "sill", "column", "beam", "rafter", "floor", "brace", "roof")
+KINDS = (*MEMBERS, "snow", "ground")
 FRAME = "frame"  # key of the frame, and its name among the structures
 MIN_SNOW, MAX_SNOW = 1e-3, 6.0  # range of the depth of snow, which may also be 0. [m]
 MAX_WOOD = 1400.0  # density of a material `timber`; the heaviest woods have 1300. [kg/m3]
@@ -61,7 +62,7 @@ _RISE = ("pitch", "ridge_height")
 _rise = dict(pitch=Number("rise over run", 0.02, 3.0, default=None), ridge_height=length(default=None))
 roof = Variants("type", {"hip": _roof("hip", _RISE, corner_cut=length(high=5.0, default=0.2), **_rise),
                          "gable": _roof("gable", _RISE, ridge=Choice(("x", "y"), None), **_rise),
-                         "mono": _roof("mono", _RISE, falls=Choice(("west", "east", "south", "north")), **_rise),
+                         "mono": _roof("mono", _RISE, falls=Choice(SIDES), **_rise),
                          "flat": _roof("flat")})
 layer = Variants("layer", {
     "foundation": _strip("foundation", True), "sill": _strip("sill", True),
@@ -147,11 +148,11 @@ repeat = ListOf(Record({"by": ListOf(_coordinate, 3, default=None), "turn": Numb
 _parts = {"material": word("timber"), "fixed": Flag(False), "repeat": repeat}
 member = Record({"from": end, "to": end, "section": ListOf(length(0.005, 5.0), 2, default=None),
                  "profile": ListOf(ListOf(Number("m", -3, 3), 2), least=3, most=12, default=None),
-                 "roll": Number("degrees", -360, 360, default=0.0), "kind": Choice(KINDS[:-2], "beam"),
+                 "roll": Number("degrees", -360, 360, default=0.0), "kind": Choice(MEMBERS, "beam"),
                  "cuts": ListOf(cut, most=20, default=()), **_parts}, one_of=("section", "profile"))
 plate = Record({"corners": ListOf(point, least=3, most=12, default=None), "over": ListOf(word(), 2, default=None),
                 "overhang": length(high=5.0, default=0.0, open_low=False), "thickness": length(0.001, 2.0),
-                "kind": Choice(KINDS[:-2], "floor"), "snow": Flag(True), **_parts}, one_of=("corners", "over"))
+                "kind": Choice(MEMBERS, "floor"), "snow": Flag(True), **_parts}, one_of=("corners", "over"))
 named_joint = Record({"between": ListOf(word(), 2), "type": word(), "kind": word(None), **_fittings,
                       "gap": length(high=0.1, default=0.0, open_low=False)})
 frame = Record({"members": MapOf(member, most=MAX_ELEMENTS), "plates": MapOf(plate, default={}),

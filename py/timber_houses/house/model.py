@@ -76,8 +76,8 @@ class WallCycles:
 
 @dataclass(frozen=True)
 class Sheet:
-    """A wall sheet. low, high: the columns of its bay (names); type: key of wall_types; opening: key of walls.OPENINGS;
-    multiplier, quasi_multiplier: of its bearing wall, of its panels, as the rules count them [-]"""
+    """A wall sheet. low, high: the columns of its bay (names); type: key of wall_types; opening: key of
+    walls.OPENING_SHARES; multiplier, quasi_multiplier: as the rules count them, of its bearing wall, its panels [-]"""
 
     low: str
     high: str

@@ -22,7 +22,7 @@ from .structure import ACROSS
 from .wall_types import cycles, envelope, multiplier, quasi_multiplier, steepest
 
 SHARE = 0.5  # of a wall's shear, between beams and between columns. [-]
-OPENINGS = {"none": (1.0, 1.0, 1.0), "window": (0.4, 0.3, 0.2), "door": (0.2, 0.15, 0.1)}
+OPENING_SHARES = {"none": (1.0, 1.0, 1.0), "window": (0.4, 0.3, 0.2), "door": (0.2, 0.15, 0.1)}
 """Strength and stiffness over those without an opening, in bays up to 1 m, up to 2 m, and longer (strength: JBDPA,
 precise diagnosis of 2004; stiffness: assumed to be the same). [-]"""
 REACH = 1e-3  # beyond the ends of the columns, where beam and sill are looked for. [m]
@@ -55,7 +55,7 @@ class Bay:
     def share(self, table):
         """Of the strength of a bearing wall of this type without an opening. [-]"""
         whole = 1.0 if self.panel is None else table["panel_share"] * self.panel
-        return whole * OPENINGS[self.opening][np.searchsorted((1.0, 2.0), self.length - 1e-9)]
+        return whole * OPENING_SHARES[self.opening][np.searchsorted((1.0, 2.0), self.length - 1e-9)]
 
 
 def sheathe(structure, elements, data, level):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Perspective cameras around a house, as in the player (player/src/view.js). World frame: x east, y north, z up [m]."""
+"""Perspective cameras around a house, with the player's angles (player/src/view.js). x east, y north, z up [m]."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -7,18 +7,19 @@ import numpy as np
 FIELD = 32.0
 """Vertical angle of view. [degree]"""
 SPARE = 1.16
-"""Size of the picture by the size of the house: captions need room above and below. [-]"""
-NEAR = 1.5
-"""Distance from the house up to which wreckage stays in the picture. [m]"""
-SHADED = 6.0
-"""Distance from the house up to which wreckage throws a shadow. [m]"""
+"""Size of the picture over that of the house: captions need room above and below. [-]"""
+DEBRIS_MARGIN = 1.5
+"""Distance from the house up to which debris stays in the picture. [m]"""
+SHADOW_MARGIN = 6.0
+"""Distance from the house up to which debris casts a shadow. [m]"""
 CAMERAS = {"front": (0.0, 5.0), "side": (90.0, 5.0), "space": (38.0, 20.0)}
-"""Azimuth from east to north and elevation. [degree]"""
+"""Azimuth from east to north, and elevation. [degree]"""
 
 
 @dataclass(frozen=True)
 class Camera:
-    """eye, target (3,) [m]; matrix (4, 4): world to clip space; scale: pixels per metre at 1 m, by the height."""
+    """eye, target (3,) [m]; matrix (4, 4): world to clip space; scale: share of the
+    picture's height of a metre at a distance of 1 m [-]"""
 
     eye: np.ndarray
     target: np.ndarray
@@ -27,14 +28,14 @@ class Camera:
 
 
 def look(name, points, aspect):
-    """Camera NAME at the smallest distance that shows all points (P, 3). aspect: width by height"""
+    """Camera NAME at the smallest distance that shows all points (P, 3). aspect: width over height"""
     azimuth, elevation = np.radians(CAMERAS[name])
     toward = np.array([np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth), np.sin(elevation)])
     right = np.array([-toward[1], toward[0], 0]) / np.hypot(*toward[:2])
     up = np.cross(toward, right)
     tangent = np.tan(np.radians(FIELD) / 2)
     target = (points.min(0) + points.max(0)) / 2
-    for _ in range(4):
+    for _ in range(4):  # distance that shows all points from this target, then target in their middle
         offset = points - target
         halves = np.maximum(abs(offset @ right) / aspect, abs(offset @ up))
         away = (halves / (tangent / SPARE) + offset @ toward).max()
@@ -57,9 +58,10 @@ def _seen(axes, origin):
     return matrix
 
 
-def kept(start, end):
-    """(P, 3) points that a camera shows: those of the start, and those of the end within NEAR of them."""
-    low, high = start.min(0) - (NEAR, NEAR, 0), start.max(0) + (NEAR, NEAR, 0)
+def shown_points(start, end):
+    """(P, 3) points that a camera shows: those of the start, and those of the end, clipped at DEBRIS_MARGIN."""
+    margin = (DEBRIS_MARGIN, DEBRIS_MARGIN, 0)
+    low, high = start.min(0) - margin, start.max(0) + margin
     return np.concatenate([start, np.clip(end[np.isfinite(end).all(1)], low, high)])
 
 
@@ -70,5 +72,5 @@ def sun(points):
     right = np.cross([0, 0, 1.0], light)
     right /= np.linalg.norm(right)
     axes = np.array([right, np.cross(light, right), -light])
-    half = max(size[:2].max() / 2 + SHADED, size[2])
+    half = max(size[:2].max() / 2 + SHADOW_MARGIN, size[2])
     return _seen(axes / half, middle), light

@@ -31,7 +31,7 @@ SQUARE, UPPER_HALF = np.array([[0, 0, 1, 0, 0, 1, 1, 1], [-1, 0, 1, 0, -1, 1, 1,
 def stages(runs, size, view):
     """A Stage of each run (Frames), all with one light and one camera, VIEW of camera.CAMERAS. size: of each [pixel]"""
     starts = [corners(run) for run in runs]
-    shown = np.concatenate([camera.kept(start, corners(run, -1)) for run, start in zip(runs, starts)])
+    shown = np.concatenate([camera.shown_points(start, corners(run, -1)) for run, start in zip(runs, starts)])
     seen, light = camera.look(view, shown, size[0] / size[1]), camera.sun(np.concatenate(starts))
     return [Stage(run, size, seen, light) for run in runs]
 

@@ -51,9 +51,9 @@ def physics_errors():
 
 
 class Stoppable:
-    """Base of what a signal ends after the present chunk. options: RunOptions; signal: number of the signal, or None"""
+    """Base of runs that a signal ends after the present chunk."""
 
-    signal = None
+    signal = None  # number of the signal that arrived
 
     @contextmanager
     def _stop_signals(self):
@@ -71,18 +71,18 @@ class Stoppable:
 
 
 class Run(Stoppable):
-    """A scenario in YADE, its RunOptions, its progress: duration / dt steps, fewer after a collapse."""
+    """A scenario in YADE with its RunOptions: duration / dt steps, fewer after a collapse."""
 
     def __init__(self, scenario, options):
         self.scenario, self.options = scenario, options
         self.origin = made_from(options)
         self.steps = round(scenario.duration / scenario.dt)
-        self.chunk = frames.steps_between(scenario.dt)  # steps between frames, and checks of signals and checkpoints
+        self.chunk = frames.steps_between(scenario.dt)  # steps between frames; then signals and numbers are checked
         self.wall_s = 0.0  # [s] of all steps, those before a resume included
         self.last_saved = 0  # step of the last checkpoint
-        self.fault = None  # of the physics, which ends the run early
+        self.fault = None  # in a town: error of the physics that has ended this run
         self.summary = self.frames = None  # once the results are written
-        self.only_export = options.export is not None and self.steps == 0  # results in the folder are left alone
+        self.only_export = options.export is not None and self.steps == 0  # results in the folder remain
         self.checkpoint_path, self.frames_path = options.folder / checkpoint.NAME, options.folder / frames.NAME
         if not (options.resume and self.checkpoint_path.exists() and self._resume()):
             self._start()
@@ -234,7 +234,7 @@ class Run(Stoppable):
     # --- results ------------------------------------------------------------------------------------------------------
 
     def write(self, cut_off=None):
-        """Write results and pictures; print their names. cut_off: reason for an early end. Or PhysicsError."""
+        """Write results and pictures; print their names. cut_off: reason for an early end. Raises PhysicsError."""
         if self.only_export:
             self.options.say(f"written: {self.options.export}")
             return

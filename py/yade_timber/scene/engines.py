@@ -31,7 +31,7 @@ def engines(gravity=GRAVITY, ground_motion=None, joints=None, monitor=None, vert
         Whether vertex-edge and vertex-vertex contacts exist too. The paper ignores them: bodies whose edges or corners
         meet then sink into each other by up to the sum of their rounding radii, and more.
     flush_supports : bool
-        Whether a vertex exactly over a face's border is supported.
+        Whether a face supports vertices exactly over its border.
     increment : bool
         Normal force from increments (Eq. 38) instead of the closed form (Eq. 37).
     damping_ratio : float
@@ -77,7 +77,7 @@ def engines(gravity=GRAVITY, ground_motion=None, joints=None, monitor=None, vert
 
 
 def contact_loop(vertex_edge, flush_supports, increment, damping_ratio):
-    """ContactLoop with the functors of all laws: YADE ends the process for a pair of materials without."""
+    """ContactLoop with the functors of all laws: YADE ends the process for a pair of materials without one."""
     geometry = yw.Ig2_RoundedPolyhedron_RoundedPolyhedron_ManifoldGeom(vertexEdge=vertex_edge,
                                                                        flushSupports=flush_supports)
     physics = [getattr(yw, ip2)(dampingRatio=damping_ratio) for ip2, _, _ in compiled.contact_laws()]
@@ -88,11 +88,11 @@ def contact_loop(vertex_edge, flush_supports, increment, damping_ratio):
     return yw.ContactLoop(loop=yw.InteractionLoop([geometry], physics, laws))
 
 
-def monitors(stated):
-    """List of the monitors of a scene. stated: as in `engines`"""
-    stated = [] if stated is None else stated if isinstance(stated, (list, tuple)) else [stated]
+def monitors(given):
+    """List of the monitors that the argument of `engines` gives."""
+    given = [] if given is None else given if isinstance(given, (list, tuple)) else [given]
     return [arguments.instance("engines: monitor", monitor, yw.Sampler, "a Sampler, a list of them, or None")
-            for monitor in stated]
+            for monitor in given]
 
 
 def ground_motion_engine(motion, scale=1.0, start=0.0):
@@ -106,9 +106,9 @@ def ground_motion_engine(motion, scale=1.0, start=0.0):
 
 
 def joint_engine(joints):
-    engine = yw.JointEngine()
-    for joint in arguments.instance("engines: joints", joints, (list, tuple), "a list of TimberJoint or None"):
-        engine.append(arguments.instance("engines: joints", joint, yw.TimberJoint, "a list of TimberJoint or None"))
+    engine, wanted = yw.JointEngine(), "a list of TimberJoint or None"
+    for joint in arguments.instance("engines: joints", joints, (list, tuple), wanted):
+        engine.append(arguments.instance("engines: joints", joint, yw.TimberJoint, wanted))
     return engine
 
 
