@@ -22,7 +22,7 @@ namespace {
 		if (!isFree(s)) return;
 		const Matrix3r scaled = body.axes * s.inertia.cwiseInverse().asDiagonal();
 		body.inverseMass = 1 / s.mass;
-		// element by element: for the matrix product Eigen would make a function call (slower)
+		// Element by element: Eigen would call a function for the matrix product, which takes longer
 		for (int i = 0; i < 3; ++i)
 			for (int j = 0; j < 3; ++j)
 				body.inverseInertia(i, j) = scaled.row(i).dot(body.axes.row(j));
@@ -34,15 +34,7 @@ namespace {
 		if (size_t(id) >= forces.force.size()) return 0;
 		return -h * (forces.force[id].dot(s.vel) + forces.torque[id].dot(s.angVel));
 	}
-}
 
-void ContactForces::validate() const
-{
-	require(sweeps >= 0, "ContactForces.sweeps", sweeps, ">= 0");
-	requirePositive("ContactForces.tolerance", tolerance);
-}
-
-namespace {
 	/// Interactions with contact geometry, in the container's order.
 	void findInteractions(const Scene& scene, std::vector<const Interaction*>& found)
 	{
@@ -60,6 +52,12 @@ namespace {
 		if (!std::is_sorted(interactions.begin(), interactions.end(), isBefore))
 			std::sort(interactions.begin(), interactions.end(), isBefore);
 	}
+}
+
+void ContactForces::validate() const
+{
+	require(sweeps >= 0, "ContactForces.sweeps", sweeps, ">= 0");
+	requirePositive("ContactForces.tolerance", tolerance);
 }
 
 /// Pairs with contact points or released energy.
@@ -84,7 +82,8 @@ std::vector<ContactForces::ContactPair> ContactForces::pairsOf(const Scene& scen
 	return contacts;
 }
 
-/// Interactions keep their order while the container has the same ones.
+/// The sorted list stays valid while the container is the same. It is sorted again if a new interaction has the address
+/// of an erased one.
 void ContactForces::collectPairs()
 {
 	findInteractions(*scene, found);
@@ -117,7 +116,7 @@ void ContactForces::collectBodies()
 	timber::forAll(count, [this](int id) { collectBody(id); });
 }
 
-/// Bodies must not be placed deeper in each other than weights press them: their springs would throw them apart.
+/// Bodies must not be placed with larger overlaps than weights cause: their springs would throw them apart.
 void ContactForces::checkPlacements() const
 {
 	for (const ContactPair& pair : pairs)
@@ -130,13 +129,13 @@ void ContactForces::checkPlacements() const
 
 void ContactForces::findIslands()
 {
-	const auto end = [this](Body::id_t id) { return bodies[id].inverseMass > 0 ? id : ~id; };
+	const auto nodeOf = [this](Body::id_t id) { return bodies[id].inverseMass > 0 ? id : ~id; };
 	links.resize(pairs.size() + joints.size());
 	std::transform(pairs.begin(), pairs.end(), links.begin(), [&](const ContactPair& p) {
-		return p.points > 0 ? timber::Link(end(p.id1), end(p.id2)) : timber::noLink;
+		return p.points > 0 ? timber::Link(nodeOf(p.id1), nodeOf(p.id2)) : timber::noLink;
 	});
 	std::transform(joints.begin(), joints.end(), links.begin() + pairs.size(),
-	        [&](const ImplicitJoint& j) { return timber::Link(end(j.joint->bodyA), end(j.joint->bodyB)); });
+	        [&](const ImplicitJoint& j) { return timber::Link(nodeOf(j.joint->bodyA), nodeOf(j.joint->bodyB)); });
 	islands.find(bodies.size(), links);
 	supports.clear();
 	for (size_t k = 0; k < links.size(); ++k)
@@ -229,7 +228,7 @@ void ContactForces::sumResults()
 	}
 	int mostSweeps = 0;
 	Real largestChange = 0;
-	ImplicitJointResult inSolver;
+	ImplicitJointResult solvedJoints;
 	bool allConverged = true;
 	for (const IslandResult& result : results) {
 		dashpotNormal += result.energies.dashpotNormal;
@@ -238,7 +237,7 @@ void ContactForces::sumResults()
 		crushing += result.energies.crushing;
 		elasticNormal += result.energies.elasticNormal;
 		elasticShear += result.energies.elasticShear;
-		inSolver.add(result.joints);
+		solvedJoints.add(result.joints);
 		mostSweeps = std::max(mostSweeps, result.convergence.sweeps);
 		allConverged = allConverged && result.convergence.converged;
 		largestChange = std::max(largestChange, result.convergence.change);
@@ -247,7 +246,7 @@ void ContactForces::sumResults()
 	sweepsMax = std::max(sweepsMax, mostSweeps);
 	if (!allConverged) ++unconverged;
 	worstChange = std::max(worstChange, largestChange);
-	addJoints(inSolver);
+	addJoints(solvedJoints);
 }
 
 /// Energies and breaks of the joints in the solver.

@@ -43,23 +43,21 @@ namespace {
 		return snow ? snow->stiffnessPerMass * body.state->mass : std::numeric_limits<Real>::infinity();
 	}
 
-	/// The IPhys of a pair, made if it is new, with the mass of now: bodies may be fixed, freed or get another mass
-	/// in a session.
+	/// The IPhys of a pair with its present mass: bodies may be fixed, freed or get another mass in a session. It is
+	/// made anew for a new pair, and after a body got a material of another law.
 	template <class Phys> Phys& updatePhys(Interaction& I, const Body& b1, const Body& b2)
 	{
-		// Of another class after a material of another law was assigned to a loaded body
 		const bool isNew = !I.phys || I.phys->getClassIndex() != Phys::getClassIndexStatic();
 		if (isNew) I.phys = shared_ptr<Phys>(new Phys);
 		Phys& phys = *static_cast<Phys*>(I.phys.get());
 		if (isNew) phys.source.fill(NaN);
 		const Real mass = timber::reduced(massOf(b1), massOf(b2));
-		// Infinite: both are fixed, no contact force acts
-		if (isNew || math::isfinite(mass)) phys.mass = mass;
+		if (isNew || math::isfinite(mass)) phys.mass = mass; // infinite: both are fixed, no contact force acts
 		return phys;
 	}
 
-	/// Whether the numbers of the materials and of the functor are not those from which the attributes were
-	/// computed. Attributes set by hand stay while they are the same.
+	/// Whether the numbers of the materials and the functor differ from those of the last call, which they replace.
+	/// Attributes set by hand stay while the numbers do.
 	bool haveChanged(ManifoldPhys& phys, std::initializer_list<Real> numbers)
 	{
 		if (std::equal(numbers.begin(), numbers.end(), phys.source.begin())) return false;
@@ -71,6 +69,18 @@ namespace {
 	{
 		return b1.bound && b2.bound && (b1.bound->min.array() <= b2.bound->max.array()).all()
 		        && (b2.bound->min.array() <= b1.bound->max.array()).all();
+	}
+
+	/// Energy and largest overlap of the points of bodies that were placed in contact, without points that the
+	/// motion of a step explains: these store no energy yet.
+	void sumPlaced(ManifoldPhys& phys, bool placed)
+	{
+		phys.placedEnergy = phys.placedOverlap = 0;
+		for (size_t k = 0; placed && k < phys.records.size(); ++k) {
+			if (!(phys.records[k].normalStored > 0)) continue;
+			phys.placedEnergy += phys.records[k].normalStored;
+			phys.placedOverlap = math::max(phys.placedOverlap, Real(phys.records[k].overlap));
+		}
 	}
 
 	/// Elastic step of a pair. Returns false when the interaction ends: no contact points, bounding boxes apart.
@@ -86,19 +96,14 @@ namespace {
 		}
 		phys.exponent = Law::exponent;
 		phys.strength = form == timber::NormalForm::Increment
-		        ? timber::BearingStrength() // as in the paper
+		        ? timber::BearingStrength() // unlimited, as in the paper
 		        : timber::bearingStrength(phys.bearing, phys.bearingRadius, geom.contactPoints);
 		const timber::PairProperties pair = phys.properties();
 		const bool placed = phys.records.empty() && (wasPlaced(*scene, b1) || wasPlaced(*scene, b2));
 		phys.releasedEnergy = timber::elasticPair(law,
 		        { pair, kinematics(*b1.state), kinematics(*b2.state), scene->dt, form, placed },
 		        geom.contactPoints, phys.records);
-		phys.placedEnergy = phys.placedOverlap = 0;
-		for (size_t k = 0; placed && k < phys.records.size(); ++k) {
-			if (!(phys.records[k].normalStored > 0)) continue; // reached by its approach
-			phys.placedEnergy += phys.records[k].normalStored;
-			phys.placedOverlap = math::max(phys.placedOverlap, Real(phys.records[k].overlap));
-		}
+		sumPlaced(phys, placed);
 		phys.isActing = !std::all_of(phys.records.begin(), phys.records.end(),
 		        [](const timber::PointRecord& r) { return r.isIdle(); });
 		if (!phys.isActing) phys.normalForce = phys.shearForce = Vector3r::Zero();
@@ -191,7 +196,7 @@ void Ip2_ElementMat_ElementMat_SnowPhys::go(
 	           friction2 = static_cast<ElementMat*>(m2.get())->friction;
 	const Body &b1 = *Body::byId(I->getId1(), scene), &b2 = *Body::byId(I->getId2(), scene);
 	SnowPhys& phys = updatePhys<SnowPhys>(*I, b1, b2);
-	phys.stiffness = math::min(snowStiffness(*m1, b1), snowStiffness(*m2, b2)); // with the masses of now
+	phys.stiffness = math::min(snowStiffness(*m1, b1), snowStiffness(*m2, b2)); // masses may have changed
 	if (haveChanged(phys, { friction1, friction2, dampingRatio }))
 		setProperties(phys, b1, b2, friction1, friction2, 1, dampingRatio);
 }

@@ -51,7 +51,7 @@ namespace {
 		{ "RestSkipper", Role::last, Role::optional, { "RestSkipper" } },
 	};
 
-	/// Null for an engine that the rules do not concern.
+	/// Null for an engine whose place in the list is free.
 	const Role* roleOf(const Engine& engine)
 	{
 		const string name = engine.getClassName();
@@ -243,7 +243,7 @@ void checkEngines(const Scene& scene)
 {
 	std::map<const Role*, int> count;
 	const Role* before = nullptr; // of the last engine with a role
-	const Engine* late = nullptr; // behind ContactForces, without a role
+	const Engine* late = nullptr; // without a role, after ContactForces
 	std::vector<const Engine*> live;
 	visitLive(scene.engines, [&](const Engine& engine) { live.push_back(&engine); });
 	for (const Engine* engine : live) {
@@ -312,7 +312,7 @@ void findParts(const Scene& scene, std::vector<const void*>& parts)
 	visitLive(scene.engines, [&](const Engine& engine) {
 		parts.push_back(&engine);
 		const auto* contactLoop = dynamic_cast<const ContactLoop*>(&engine);
-		const auto* trigger = contactLoop ? nullptr : dynamic_cast<const CollisionTrigger*>(&engine);
+		const auto* trigger = dynamic_cast<const CollisionTrigger*>(&engine);
 		const Engine* inner = contactLoop ? contactLoop->loop.get()
 		        : trigger                 ? trigger->collider.get()
 		                                  : nullptr;
@@ -321,7 +321,7 @@ void findParts(const Scene& scene, std::vector<const void*>& parts)
 	});
 }
 
-constexpr Real largestStep = 1e-2; ///< twenty times the default step: a wrong unit, or a time stepper [s]
+constexpr Real largestStep = 1e-2; ///< twenty times the default step of houses: larger ones are mistakes [s]
 
 /// Largest velocity change by gravity in a step, times the step, over the rounding radius of a body. [-] Bodies at rest
 /// sink by a few g h^2, and by more in stacks. 0.0025: a stack of four cubes by 1 % of the radius; 0.012: by 14 %.

@@ -10,13 +10,13 @@ namespace yade {
 /// 47 times that limit. [-]
 constexpr Real jointStepFactor = 20;
 
-/// The list of engines is complete, without doubles and in order. Throws std::runtime_error.
+/// The list of engines is complete, without duplicates and in order. Throws std::runtime_error.
 void checkEngines(const Scene&);
 
 /// Each pair of shapes, materials and contact laws that can occur has a functor. Throws std::runtime_error.
 void checkContacts(const Scene&);
 
-/// The scene's time step is finite and not too large for contacts under gravity and for joints. Throws std::runtime_error.
+/// The time step is finite and not too large for contacts under gravity and for joints. Throws std::runtime_error.
 void checkStep(const Scene&);
 
 /// Addresses of the live engines, also of those inside others, of the dispatchers of loop and collider, and of their

@@ -96,7 +96,7 @@ static_assert(restSkin * restSkin > 2 * flushTolerance * flushTolerance,
         "the skin must cover the distance of a flush support from a corner");
 
 /// A near pair without contact points is tested for a separating axis once in this many updates. [-] The test costs
-/// about five updates, and many such pairs have none (vertex-edge contacts, which are off by default).
+/// about five updates, and many such pairs have none where vertex-edge contacts are off (the paper's houses).
 /// Larger: separated pairs are recognised later; smaller: more tests.
 constexpr int axisInterval = 24;
 

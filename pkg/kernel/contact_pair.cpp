@@ -41,7 +41,7 @@ namespace {
 		return p;
 	}
 
-	/// Impacts of a pair's points: prepare phase. Those that touch in this step, and those that are in an impact.
+	/// Prepare phase: points of a pair that begin an impact in this step, and those that are in one.
 	struct Impacts {
 		PointRecord* records;
 		PointStep* steps;
@@ -53,8 +53,8 @@ namespace {
 			return r.impact.isPending() && r.normalForce > 0 && steps[i].response() > 0
 			        && steps[i].before[0] < 0;
 		}
-		/// Change of a point's normal velocity by unit impulses of all of them: points of a face share the
-		/// impulse. Not less than its own one over their number: they do not hold each other down. [1/kg]
+		/// Change of a point's normal velocity by unit impulses of all points in an impact: points of a face share
+		/// the impulse. At least the point's own response over their number. [1/kg]
 		double commonResponse(const PointStep& step) const
 		{
 			PairVector all {};
@@ -88,7 +88,7 @@ namespace {
 		}
 	}
 
-	/// Velocity change of B relative to A at a point that the impulses of the pair's points explain. [m/s]
+	/// Velocity change of B relative to A along a point's normal, by the impulses of the pair's points. [m/s]
 	double changeByPair(const PointStep& point, const SolverBodies& bodies, const PairForce& impulse)
 	{
 		const Vec3 vA = -bodies.a.inverseMass * impulse.onB, wA = bodies.a.inverseInertia * impulse.torqueA,
@@ -109,21 +109,19 @@ namespace {
 		}
 	}
 
-	/// Normal spring after a closing displacement from the placement.
 	template <class Number> struct SpringAfter {
 		Number force, stiffness, energy; ///< [N, N/m, J]
 	};
 
-	/// Normal spring after the displacement `closing` from the placement, F = k n + c n^q.
-	/// U, F, K, n: energy [J], force [N], stiffness [N/m] and overlap [m] at the placement; overlapLeft: overlap left
-	/// until the force is constant [m].
+	/// Normal spring F = k n + c n^q after the displacement `closing` [m] from the placement, where it has the energy U
+	/// [J], force F [N], stiffness K [N/m] and overlap n [m]. overlapLeft: overlap left until the force is constant [m].
 	template <class Number>
 	[[gnu::always_inline]] inline SpringAfter<Number> springAfter(
 	        Number U, Number F, Number K, Number n, Number overlapLeft, Number closing, double q)
 	{
+		// Displacement with a varying force, and the rest with a constant one
 		const Number none = 0., g = min(max(closing, Number(-n)), overlapLeft),
-		             rest
-		        = max(none, Number(closing - overlapLeft)); // of it, with and without change of the force
+		             rest = max(none, Number(closing - overlapLeft));
 		Number change = F * g + K * g * g / Number(2.), force = F + K * g, stiffness = K;
 		if (q > 1) {
 			const Number floor = max(n, Number(roundingOverlap)), s = Number(1.) + g / floor,
@@ -161,18 +159,94 @@ namespace {
 		return energy;
 	}
 
-	/// What a spring has after a step, and what was dissipated. The account is negative after a step whose sweeps
-	/// ended with a small error: the point has returned too much, and the next work on it settles the debt.
+	/// Energy that a spring has stored after a step, and the energy dissipated in it. stored is negative after sweeps
+	/// that ended with a small error: the point has returned too much energy, which is taken from later work on it.
 	template <class Number> struct Account {
 		Number stored, dissipated; ///< [J]
+		Number yielding = 0.; ///< part of dissipated by crushing (normal) or friction (shear) [J]
 
-		/// before: account before the step; work: of the impulse on the bodies; law: energy that the spring may
+		/// before: stored before the step; work: of the impulse on the bodies; law: energy that the spring may
 		/// have after the step. [J]
 		Account(Number before, Number work, Number law)
 		{
 			const Number available = before - work;
 			stored = min(available, law);
 			dissipated = available - stored;
+		}
+		Number dashpot() const { return dissipated - yielding; }
+	};
+
+	/// Points after the sweeps.
+	template <class Number> struct SolvedPoints {
+		using Vec = Vec3Of<Number>;
+		const PairProperties& pair;
+		const double h; ///< step [s]
+		const Group<Number, PointRecord> record;
+		const Number stiffness, strength; ///< of the normal springs [N/m], h F_Y [N s]
+		const Vec armA, armB, after,
+		        mean; ///< arms [m]; relative velocity after the step, and in its middle [m/s]
+		Vec axes[3];
+		Number p[3]; ///< impulse along the axes [N s]
+
+		[[gnu::always_inline]] SolvedPoints(const PairProperties& pair, double h, const SolverBodies& bodies,
+		        const Group<Number, PointRecord>& record, const Group<Number, const PointStep>& step)
+		        : pair(pair)
+		        , h(h)
+		        , record(record)
+		        , stiffness(record.get(&PointRecord::stiffness))
+		        , strength(step.get(&PointStep::strength))
+		        , armA(step.get(&PointStep::armA))
+		        , armB(step.get(&PointStep::armB))
+		        , after(bodies.velocity<Number>(armA, armB))
+		        , mean((after + bodies.velocityBefore<Number>(armA, armB)) / Number(2.))
+		{
+			for (int c = 0; c < 3; ++c) {
+				axes[c] = step.get(&PointStep::axes, c);
+				p[c] = step.get(&PointStep::impulse, c);
+			}
+		}
+
+		/// Account of the normal springs in the middle of the step.
+		[[gnu::always_inline]] Account<Number> storeNormal() const
+		{
+			const Number e = record.get(&PointRecord::normalForce), n = record.get(&PointRecord::overlap),
+			             U = record.get(&PointRecord::energy), none = 0.,
+			             closing = Number(-h / 2) * after.dot(axes[0]),
+			             overlapLeft = max(none, Number(Number(pair.overlapLimit) - n)),
+			             limit = strength / Number(h);
+			const SpringAfter<Number> spring
+			        = springAfter<Number>(U, e, stiffness, n, overlapLeft, closing, pair.exponent);
+			const Number law = selectLazily(
+			        spring.force > limit,
+			        [&] {
+				        return energyAtStrength(
+				                U, e, stiffness, n, overlapLeft, closing, pair.exponent, limit);
+			        },
+			        [&] { return spring.energy; });
+			Account<Number> account(record.get(&PointRecord::normalStored), p[0] * mean.dot(axes[0]), law);
+			record.set(&PointRecord::normalStored, account.stored);
+			// The total force is at the strength, or the spring is while the surfaces close
+			const Number yield = strength * Number(1 - strengthRounding);
+			const auto yields = logicalOr(
+			        p[0] >= yield, logicalAnd(Number(h) * e >= yield, mean.dot(axes[0]) < none));
+			account.yielding = select(yields, account.dissipated, none);
+			return account;
+		}
+
+		/// The same of the shear springs. shear: their force at the placement, within Coulomb's limit [N]
+		[[gnu::always_inline]] Account<Number> storeShear(const Vec& shear, Number limit) const
+		{
+			const Number shearStiffness = Number(pair.shearRatio) * stiffness;
+			const Vec slip = Number(h / 2) * (after - after.dot(axes[0]) * axes[0]),
+			          ahead = shear - shearStiffness * slip;
+			const auto sliding = (p[1] * p[1] + p[2] * p[2])
+			        >= (limit * limit) * Number(h * h * (1 - slidingRounding));
+			Account<Number> account(record.get(&PointRecord::shearStored),
+			        p[1] * mean.dot(axes[1]) + p[2] * mean.dot(axes[2]),
+			        shearEnergy<Number>(select(sliding, shear, ahead), shearStiffness));
+			record.set(&PointRecord::shearStored, account.stored);
+			account.yielding = select(sliding, account.dissipated, Number(0.));
+			return account;
 		}
 	};
 
@@ -215,59 +289,19 @@ PairForce storeForces(ContactSolver& solver, size_t k, const PairProperties& pai
 		using Vec = Vec3Of<Number>;
 		const size_t count = solverPair.count - i;
 		const Group<Number, PointRecord> record(&records[i], count);
-		const Group<Number, const PointStep> step(steps + i, count);
-		const Vec armA = step.get(&PointStep::armA), armB = step.get(&PointStep::armB);
-		Vec axes[3];
-		Number p[3];
-		for (int c = 0; c < 3; ++c) {
-			axes[c] = step.get(&PointStep::axes, c);
-			p[c] = step.get(&PointStep::impulse, c);
-		}
-		const Vec impulse = p[0] * axes[0] + p[1] * axes[1] + p[2] * axes[2], force = impulse / Number(h);
+		const SolvedPoints<Number> s(pair, h, bodies, record, Group<Number, const PointStep>(steps + i, count));
+		const Vec normalImpulse = s.p[0] * s.axes[0],
+		          impulse = normalImpulse + s.p[1] * s.axes[1] + s.p[2] * s.axes[2];
 		impulses.add<Number>(
-		        count, impulse, Vec(-armA.cross(impulse)), Vec(armB.cross(impulse)), Vec(p[0] * axes[0]));
-		const Number e = record.get(&PointRecord::normalForce), K = record.get(&PointRecord::stiffness),
-		             n = record.get(&PointRecord::overlap), limit = Number(pair.friction) * (p[0] / Number(h)),
-		             none = 0.;
+		        count, impulse, Vec(-s.armA.cross(impulse)), Vec(s.armB.cross(impulse)), normalImpulse);
+		const Number elastic = record.get(&PointRecord::normalForce),
+		             limit = Number(pair.friction) * (s.p[0] / Number(h));
 		const Vec shear = clipped(Vec(record.get(&PointRecord::shearForce)), limit);
 		record.set(&PointRecord::shearForce, shear);
-		record.set(&PointRecord::dashpotForce, Vec(force - e * axes[0] - shear));
-
-		const Vec after = bodies.velocity<Number>(armA, armB),
-		          mean = (after + bodies.velocityBefore<Number>(armA, armB)) / Number(2.);
-		// Closing displacement to the middle of the step
-		const Number separation = after.dot(axes[0]), closing = Number(-h / 2) * separation;
-		const Number overlapLeft = max(none, Number(Number(pair.overlapLimit) - n)),
-		             U = record.get(&PointRecord::energy), most = step.get(&PointStep::strength),
-		             strength = most / Number(h);
-		const SpringAfter<Number> spring = springAfter<Number>(U, e, K, n, overlapLeft, closing, pair.exponent);
-		const Number normalLaw = selectLazily(
-		        spring.force > strength,
-		        [&] { return energyAtStrength(U, e, K, n, overlapLeft, closing, pair.exponent, strength); },
-		        [&] { return spring.energy; });
-		const Account<Number> normal(
-		        record.get(&PointRecord::normalStored), p[0] * mean.dot(axes[0]), normalLaw);
-
-		// The total force is at the strength, or the spring is while the surfaces close
-		const Number yield = most * Number(1 - strengthRounding);
-		const auto yields
-		        = logicalOr(p[0] >= yield, logicalAnd(Number(h) * e >= yield, mean.dot(axes[0]) < none));
-		const Number crushing = select(yields, normal.dissipated, none);
-		const Number shearStiffness = Number(pair.shearRatio) * K;
-		// Spring in the middle of the step
-		const Vec slip = Number(h / 2) * (after - separation * axes[0]), ahead = shear - shearStiffness * slip;
-		const auto sliding
-		        = (p[1] * p[1] + p[2] * p[2]) >= (limit * limit) * Number(h * h * (1 - slidingRounding));
-		const Vec shearSpring = select(sliding, shear, ahead);
-		const Account<Number> tangential(record.get(&PointRecord::shearStored),
-		        p[1] * mean.dot(axes[1]) + p[2] * mean.dot(axes[2]),
-		        shearEnergy<Number>(shearSpring, shearStiffness));
-		record.set(&PointRecord::normalStored, normal.stored);
-		record.set(&PointRecord::shearStored, tangential.stored);
-		const Number friction = select(sliding, tangential.dissipated, none),
-		             dashpot = tangential.dissipated - friction;
-		sums.add<Number>(count, Number(normal.dissipated - crushing), dashpot, friction, normal.stored,
-		        tangential.stored, crushing);
+		record.set(&PointRecord::dashpotForce, Vec(impulse / Number(h) - elastic * s.axes[0] - shear));
+		const Account<Number> normal = s.storeNormal(), tangential = s.storeShear(shear, limit);
+		sums.add<Number>(count, normal.dashpot(), tangential.dashpot(), tangential.yielding, normal.stored,
+		        tangential.stored, normal.yielding);
 	});
 	energies = { sums[0], sums[1], sums[2], sums[3], sums[4], sums[5] };
 	const PairForce impulse { impulses.vector(0), impulses.vector(3), impulses.vector(6), impulses.vector(9) };

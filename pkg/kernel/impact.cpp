@@ -53,7 +53,10 @@ double PowerSpring::exponent() const
 	return std::floor(stiffness * overlap / force * unit + 0.5) / unit;
 }
 
-double PowerSpring::energyAt(double other) const { return energy() * timber::power(other / force, 1 + 1 / exponent()); }
+double PowerSpring::energyAt(double otherForce) const
+{
+	return energy() * timber::power(otherForce / force, 1 + 1 / exponent());
+}
 
 /// 2 d / v int_0^1 dx / sqrt(1 - x^(q+1)) with the largest overlap d.
 double PowerSpring::duration(double mass, double speed) const
@@ -65,7 +68,7 @@ double PowerSpring::duration(double mass, double speed) const
 
 /// (3) for s = n/d and y = (v/v(d))^2, dy/ds = -(q + 1) min(1, s^q + 2 zeta_c s^((q-1)/2) y^1/2), in the variable
 /// z = s^1/4, of which Hertz's dashpot is a smooth function, by the classical Runge-Kutta method.
-double reboundAtStrength(double ratio, double q, double speed, double& rest)
+double reboundAtStrength(double ratio, double q, double speed, double& crushing)
 {
 	assert(ratio >= 0 && q >= 1 && speed > 0);
 	struct Powers {
@@ -80,7 +83,7 @@ double reboundAtStrength(double ratio, double q, double speed, double& rest)
 		return -4 * (q + 1) * z * z * z * std::min(1., force);
 	};
 	const double dz = 1. / crushingSteps, unloading = std::sqrt(restitution(ratio));
-	rest = 0;
+	crushing = 0;
 	double y = speed * speed;
 	Powers now = powersOf(0);
 	for (int k = 0; k < crushingSteps; ++k) {
@@ -93,7 +96,7 @@ double reboundAtStrength(double ratio, double q, double speed, double& rest)
 		y = next;
 		now = end;
 	}
-	rest = y / (speed * speed);
+	crushing = y / (speed * speed);
 	return unloading;
 }
 
@@ -121,16 +124,16 @@ namespace {
 		if (!t.strength.isLimited()) return elastic;
 		const double strength = t.strength.force(t.crushed), a = t.response,
 		             limit = std::sqrt(2 * a * spring.energyAt(strength)), speed = t.speed / limit;
-		// Below it the largest force, at most that of an undamped spring and of its dashpot at the first speed
+		// No crushing: the force is at most that of the undamped spring plus that of its dashpot at the touch speed
 		if ((1 + 2 * ratio) * power(speed, 2 * q / (q + 1)) <= 1) return elastic;
-		double rest;
-		const double rebound = reboundAtStrength(ratio, q, speed, rest) * limit;
-		if (rest == 0) return rebound;
-		const double plastic = plasticOverlap(t.strength, t.crushed, rest * t.speed * t.speed / (2 * a));
+		double crushing;
+		const double rebound = reboundAtStrength(ratio, q, speed, crushing) * limit;
+		if (crushing == 0) return rebound;
+		const double plastic = plasticOverlap(t.strength, t.crushed, crushing * t.speed * t.speed / (2 * a));
 		return rebound * power(t.strength.force(plastic) / strength, (1 + 1 / q) / 2);
 	}
 
-	/// Durations of an impact: of the undamped elastic one, or the one at the strength, and with crushing. [s]
+	/// Durations of an undamped impact: of its elastic part, up to the strength, and of all. [s]
 	struct Durations {
 		double elastic, whole;
 

@@ -59,8 +59,7 @@ struct PowerSpring {
 
 	double exponent() const; ///< q, without the rounding errors of force and stiffness [-]
 	double energy() const { return force * overlap / (exponent() + 1); } ///< [J]
-	/// Energy at that force. [J]
-	double energyAt(double other) const;
+	double energyAt(double otherForce) const; ///< [J]
 	/// Duration of the undamped impact of a mass [kg] with a speed > 0 [m/s]. [s]
 	double duration(double mass, double speed) const;
 };
@@ -75,9 +74,9 @@ struct Touch {
 	double crushed = 0; ///< plastic overlap [m]
 };
 
-/// Velocity after an impact (3) over v(d) at the strength, d, before crushing begins. ratio: zeta_c; q: exponent; speed:
-/// of closing, over v(d); rest: part of its energy that crushes beyond d, output. [-]
-double reboundAtStrength(double ratio, double q, double speed, double& rest);
+/// Velocity after an impact (3) over v(d), with the overlap d at the strength. ratio: zeta_c; q: exponent; speed: of
+/// closing, over v(d); crushing: out, share of the energy before the impact that is left at d and crushes beyond. [-]
+double reboundAtStrength(double ratio, double q, double speed, double& crushing);
 
 /// Impact of a point whose surfaces have touched in the last step. h: step [s].
 ImpactState startImpact(const PowerSpring& spring, const Touch& touch, double h);
