@@ -60,7 +60,7 @@ class DamageSurvey:
         e, j = self.elements, self.joints
         self.structures = list(dict.fromkeys(level.structure for level in self.levels))
         """Names of the structures, the main one first."""
-        self._of_walls, self._damaged = of_walls(j), np.asarray(j.damaged, bool)
+        self._of_walls = of_walls(j)
         self._columns = np.array([k for k, kind in enumerate(e.kind) if kind == "column"], int)
         self._upright = _vertical(e.orientation[self._columns])
         self._loose_at_start = self.loose_columns(State(e.position, e.orientation, np.where(j.damaged, j.springs, 0)))
@@ -78,8 +78,8 @@ class DamageSurvey:
 
     def _broken_joints(self, state):
         """((J,) bool: broken, (J,) bool: partly broken), without those broken before the start."""
-        broken = ~self._damaged & (state.broken >= self.joints.springs)
-        return broken, ~self._damaged & ~broken & (state.broken > 0)
+        states = self.joints.states(state.broken)
+        return states == "broken", states == "partly"
 
     def count_broken(self, state, springs):
         """The part `broken`. springs: number that broke. A joint of two sides counts for both."""
@@ -98,7 +98,7 @@ class DamageSurvey:
             partly_broken=int(partly.sum()),
             wall_sheets_partly=partly_gone if len(sheets) else None,
             springs=springs,
-            damaged_at_start=self.count_joints(self._damaged),
+            damaged_at_start=self.count_joints(np.asarray(self.joints.damaged, bool)),
         )
 
     def fallen_columns(self, state):

@@ -55,6 +55,12 @@ class Joints(_ShortRepr):
     def __post_init__(self):
         self.sheet = np.full(len(self.name), -1) if self.sheet is None else self.sheet
 
+    def states(self, broken):
+        """'whole', 'partly', 'broken' or 'before' (the start), for each joint. broken: (..., J) broken springs"""
+        broken = np.asarray(broken)
+        state = np.where(broken == 0, "whole", np.where(broken >= self.springs, "broken", "partly"))
+        return np.where(self.damaged, "before", state)
+
 
 @dataclass(repr=False)
 class Sheets(_ShortRepr):
@@ -159,11 +165,8 @@ class Frames:
         return np.asarray(self.position[frame])[a] + rotated(np.asarray(self.orientation[frame])[a], self.joints.anchor)
 
     def joint_states(self, frame):
-        """'whole', 'partly', 'broken' or 'before' (the start), for each joint. frame: a number, or a slice"""
-        j = self.joints
-        state = np.where(np.asarray(self.broken[frame]) == 0, "whole",
-                         np.where(self.broken[frame] >= j.springs, "broken", "partly"))
-        return np.where(j.damaged, "before", state)
+        """Joints.states in a frame: a number, or a slice."""
+        return self.joints.states(self.broken[frame])
 
     def at(self, time):
         """Number of the frame nearest to a time [s]."""

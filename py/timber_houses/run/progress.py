@@ -29,7 +29,7 @@ class Status:
     def numbers(self):
         """'drift 1/245, 3/382 joints broken'"""
         described = self.log.survey.joints
-        broken = (record.joint_loads()[1][:len(described.damaged)] >= described.springs) & ~described.damaged
+        broken = described.states(record.joint_loads()[1][:len(described.name)]) == "broken"
         peak = max(self.judge.main.peak, default=0.0)
         joints, sheets = count_apart(described, broken)
         return f"drift {english.ratio(peak)}, {english.broken_of(joints, sheets, of='/')}"

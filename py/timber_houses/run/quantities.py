@@ -8,7 +8,6 @@ from operator import attrgetter
 
 import numpy as np
 import yade.wrapper as yw
-from yade_timber.scene import record
 from yade_timber.scene.engines import find_engine, gravity_now
 
 from ..base.atomic_write import write_text
@@ -67,12 +66,11 @@ def _shears(table, name):
     return Shear(sustained=sustained, peak=peak)
 
 
-JointRow = namedtuple("JointRow", ("name", "kind", "storey", "side", "utilisation", "pull", "shear", "opening",
+JointRow = namedtuple("JointRow", ("name", "kind", "storey", "side", "load", "pull", "shear", "opening",
                                    "strength", "per", "broken", "state"))
 JOINT_HEADER = (*("joint", "kind", "storey", "side", "utilisation [-]", "pull [N]", "shear [N]", "opening [m]"),
                 *("strength [N]", "strength of", "broken springs [-]", "state"))
-ColumnRow = namedtuple("ColumnRow", ("name", "structure", "storey", "east", "north", "uplift", "pull", "utilisation",
-                                     "state"))
+ColumnRow = namedtuple("ColumnRow", ("name", "structure", "storey", "east", "north", "uplift", "pull", "load", "state"))
 COLUMN_HEADER = ("column", "structure", "storey", "east [m]", "north [m]", "uplift [m]", "pull [N]", "utilisation [-]",
                  "state")
 """Columns of joints.csv and columns.csv, as the entries of their rows."""
@@ -80,15 +78,14 @@ COLUMN_HEADER = ("column", "structure", "storey", "east [m]", "north [m]", "upli
 
 def joint_rows(observed, peaks):
     """Rows of joints.csv, the largest utilisation first. observed: Observer of the run; peaks: of Tables"""
-    model, (_, broken) = observed.model, record.joint_loads()
+    model, broken = observed.model, observed.state().broken
     rows = []
-    for joint, (load, pull, shear, opening), springs in zip(model.joints, peaks, broken):
-        state = ("before" if joint.broken else "broken" if springs >= len(joint.points) else "partly" if springs
-                 else "whole")
+    for joint, (load, pull, shear, opening), springs, state in zip(model.joints, peaks, broken,
+                                                                   observed.survey.joints.states(broken)):
         place = observer.storey_of(joint, model), "+".join(observer.sides_of(joint))
         rows.append(JointRow(joint.name, joint.kind, *place, load, pull, shear, opening, float(joint.strength),
                              joint.per, int(springs), state))
-    return sorted(rows, key=lambda row: -row.utilisation)
+    return sorted(rows, key=lambda row: -row.load)
 
 
 def column_feet(observed):
@@ -153,7 +150,7 @@ def summarised(tables, observed):
         modes=Modes(before=observed.modes,
                     after=None if collapsed or observed.modes is None else observer.modes_now(observed.main_levels)),
         **storey_peaks(tables.storeys.until(fall) if collapsed else tables.storeys, part_masses(observed)),
-        largest_utilisation=_largest(LargestUtilisation, tables.joints, "utilisation", "joint", "value", 4),
+        largest_utilisation=_largest(LargestUtilisation, tables.joints, "load", "joint", "value", 4),
         largest_pull=_largest(LargestForce, breakable, "pull", "joint", "force"),
         largest_shear=_largest(LargestForce, breakable, "shear", "joint", "force"),
         largest_uplift=None if collapsed else _largest(LargestUplift, standing, "uplift", "column", "uplift_m"),
