@@ -16,9 +16,9 @@ SESSION = textwrap.dedent(
     import os, time
     from yade import O
     from timber_houses.run import cli
+    from timber_houses.run.live import show_view
     from timber_houses.run.plan import planned
     from timber_houses.scene import scenario
-    from timber_houses.scene import viewer
     from PyQt5 import QtWidgets
 
     def draw(times):
@@ -27,7 +27,7 @@ SESSION = textwrap.dedent(
             time.sleep(0.05)
 
     scenario.build(planned(cli.read("C2", False, True, ["modelC2_snow.py"])))
-    view = viewer.show()
+    view = show_view()
     O.run(20, True)
     draw(20)
     view.saveSnapshot({picture!r})  # saved at the next drawing

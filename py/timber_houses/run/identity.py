@@ -20,7 +20,7 @@ from ..motion.sequence import following, with_factor
 ROOMS = ("*.py", "base/*.py", "house/*.py", "house/*/*.py", "motion/*.py", "scene/*.py", "run/*.py", "recording/*.py",
          "data/*.csv", "data/houses/*")
 """Files of a package that decide results, besides the compiled module."""
-DISPLAY = ("base/colors.py", "scene/viewer.py", "run/progress.py", "recording/ensemble.py")
+DISPLAY = ("base/colors.py", "run/progress.py", "recording/ensemble.py")
 """Files in these rooms that change only the display."""
 
 

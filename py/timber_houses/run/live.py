@@ -6,15 +6,20 @@ import threading
 import time
 import uuid
 
+import numpy as np
+import yade.runtime
 import yade.wrapper as yw
+from yade.minieigenHP import Vector3
 from yade_timber.scene.background import between_steps
 
 from ..base.errors import InputError, RunError
-from ..scene import viewer
 from .progress import Status
 from .runner import Run
 
 TAG = "yade-timber run"  # tag of the scene: the run that it belongs to
+BACKGROUND = (0.80, 0.87, 0.93)  # of YADE's view. [RGB]
+DIRECTION = (0.72, 0.64, 0.30)  # direction from the house to the camera: north-east, above. [-]
+DISTANCE = 1.15  # distance of the camera over the diagonal of the house. [-]
 O = yw.Omega()
 live = None  # the LiveRun of this session that records frames
 
@@ -30,7 +35,7 @@ class LiveRun(Run):
             self._end()
             return
         O.tags[TAG] = self.tag = uuid.uuid4().hex
-        viewer.show()
+        show_view()
         self._status = Status(self.observer)
         live = self  # whose `record_frame` an engine behind RestSkipper calls in the step to each frame
         before = O.iter // self.chunk * self.chunk - 1  # the step that led to the last frame
@@ -82,6 +87,25 @@ class LiveRun(Run):
     def __repr__(self):
         state = "running" if O.running else "paused" if O.iter < self.steps else "finished"
         return f"<{self.scenario.name}: {O.time:.2f} of {self.scenario.duration:g} s, {state}>"
+
+
+def show_view():
+    """Open YADE's view of the scene, joints by load, when it has a display; returns it, or None without one."""
+    if not yade.runtime.hasDisplay:
+        return None
+    from yade import qt
+
+    renderer = qt.Renderer()
+    renderer.bgColor = Vector3(*BACKGROUND)
+    renderer.extraDrawers = [yw.GlExtra_TimberJoints(cross=0.1)]
+    view = qt.View()
+    centres = np.array([body.state.pos for body in O.bodies if body.shape.kind != "ground"])
+    low, high = centres.min(0), centres.max(0)
+    centre = (low + high) / 2
+    eye = centre + DISTANCE * np.linalg.norm(high - low) * np.array(DIRECTION)
+    view.eyePosition = Vector3(*eye)  # first: YADE computes the view direction from the position
+    view.upVector, view.lookAt = Vector3.UnitZ, Vector3(*centre)
+    return view
 
 
 def show_below(text):
