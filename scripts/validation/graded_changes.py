@@ -38,7 +38,6 @@ from timber_houses.house import LEVELS, build_house, changed_house, load_house
 from timber_houses.house.layout import SAWS_STATES
 from timber_houses.house.parser import house_text
 from timber_houses.house.walls import SHARE
-from timber_houses.house.weight import floor_area
 from timber_houses.run.options import RunOptions
 from timber_houses.study.driver import Task, run_missing
 from timber_houses.study.options import Parser, add_driver_options, count, results_folder, run_script, selected
@@ -239,7 +238,7 @@ def finish_ratio(path):
     """Largest shears of the finishes of storey 1 over the code's wall quantity, the smaller of both directions. [-]"""
     description = load_house(path)
     model, types = build_house(description), description.data["wall_types"]
-    required = UNIT * REQUIRED[0] * floor_area(model, STRUCTURE, 1)
+    required = UNIT * REQUIRED[0] * model.plans[STRUCTURE][1].area
     return min(sum(j.strength for j in wall_joints(model, 1, axis) if types[j.sheet.type]["finish"]) / SHARE / required
                for axis in AXES)
 

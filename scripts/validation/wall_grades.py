@@ -13,7 +13,6 @@ from timber_houses.base.atomic_write import write_text
 from timber_houses.house import build_house, changed_house, load_house
 from timber_houses.house.loads import bay_length
 from timber_houses.house.parser import house_text
-from timber_houses.house.weight import floor_area
 
 HOUSE, STRUCTURE = "tiled_house", "main"
 """The plan and its structure."""
@@ -45,7 +44,7 @@ def multiplier(sheets, wall_types):
 
 def factors(model, wall_types, grade, rule="law"):
     """{(storey, direction): factor on the sheets} for the wall quantity of a grade by a rule."""
-    areas = [floor_area(model, STRUCTURE, k) for k in (1, 2)]
+    areas = [model.plans[STRUCTURE][k].area for k in (1, 2)]
     return {(k, d): required_share(grade, rule, areas[1] / areas[0])[k - 1] * areas[k - 1]
             / existing_quantity(model, wall_types, k, d) for k in (1, 2) for d in AXES}
 

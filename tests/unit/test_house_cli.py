@@ -25,7 +25,7 @@ def read(*words):
 def test_a_file_by_itself(own):
     """Snow of the file, no earthquake; results under the file's name."""
     scenario, options = read(own)
-    assert (scenario.name, scenario.house, scenario.motion, scenario.snow_depth,
+    assert (scenario.name, scenario.house, scenario.motion, scenario.build_model().snow_depth,
             scenario.duration) == ("my.house", str(own), None, 0.7, QUIET_DURATION)
     assert str(options.folder) == "results/my.house"
 

@@ -92,7 +92,7 @@ def _run(session, prompt, scenario, options):
         if options.report:
             from ..study import other_walls
 
-            scenario.other_walls = other_walls.run(options)
+            scenario.other_walls = other_walls.run(options, scenario.description.data)
     except KeyboardInterrupt:
         _leave("stopped; the same command continues", 128 + signal.SIGINT)
     if options.town or not prompt:

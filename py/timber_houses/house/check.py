@@ -2,7 +2,6 @@
 """Checks of a built house: no overlap, joints at both ends of columns and braces, every element supported."""
 import numpy as np
 
-from ..base.joint_kinds import WALL_KINDS
 from .errors import HouseError
 from .geometry import contact_polygon, separation
 from .joint_values import END_JOINED
@@ -61,7 +60,7 @@ def _check_ends(model, touching):
 def _joined_halves(model):
     """{(name of a member of a frame, 'top' or 'bottom' half in which it has a joint)}"""
     halves = set()
-    for joint in (joint for joint in model.joints if joint.kind not in WALL_KINDS):
+    for joint in (joint for joint in model.joints if joint.sheet is None):
         for member in map(model.element, (joint.a, joint.b)):
             if member.axis is not None:
                 low, high = sorted(member.axis, key=lambda end: end[2])
@@ -96,7 +95,7 @@ def _lying_at(member, end, touching):
 def _check_supports(model, touching):
     """Each element must be connected to a fixed one by joints or by lying on supported elements."""
     supports = {element.name: set() for element in model.elements}  # name -> names of the elements that it supports
-    for joint in (joint for joint in model.joints if joint.kind not in WALL_KINDS):
+    for joint in (joint for joint in model.joints if joint.sheet is None):
         supports[joint.a].add(joint.b)
         supports[joint.b].add(joint.a)
     for a, b in touching:

@@ -9,13 +9,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..base.joint_kinds import WALL_COLUMN, WALL_KINDS
 from . import diagnosis_tables as rules
 from .loads import bay_length
 from .pushover import pushover, secant_periods
 from .wall_quantity import requirement
 from .wall_types import RATED_DRIFT
-from .weight import floor_area
 
 DIRECTIONS = {"ew": 0, "ns": 1}  # direction and the index of its axis
 
@@ -124,7 +122,7 @@ def _structure(model, group):
 def _storey(model, group, storey, needs, strength, bays, curves):
     """strength: Qr [kN/m2], None beyond three storeys"""
     here, plans = [bay for bay in bays if bay.columns[0].storey == storey], model.plans[group]
-    area, eccentricities = floor_area(model, group, storey), _eccentricities(here, _mass_centre(model, group, storey))
+    area, eccentricities = plans[storey].area, _eccentricities(here, _mass_centre(model, group, storey))
     is_rated = bool(needs.quantities_of_all) and area > 0
     quantity = needs.quantities_of_all[storey - 1] if is_rated else None
     return {"floor_area_m2": round(area, 3), "required_cm_m2": quantity,
@@ -214,8 +212,8 @@ def _mass_centre(model, group, storey):
 def _bays(model, group, largest):
     """RatedBays of a structure. largest: sum of the multipliers of a bay [-]"""
     totals, quasi = Counter(), Counter()
-    sheets = [joint.sheet for joint in model.joints
-              if joint.kind == WALL_COLUMN and joint.group == group and not joint.broken]
+    sheets = dict.fromkeys(joint.sheet for joint in model.joints
+                           if joint.sheet and joint.group == group and not joint.broken)
     walls = [(model.element(sheet.low), model.element(sheet.high), sheet.multiplier, sheet.quasi_multiplier)
              for sheet in sheets]
     for low, high, multiplier, panels in [*walls, *_braces(model, group)]:
@@ -294,7 +292,7 @@ def _foot_strengths(model):
     """{column: allowable tension of its joints at the foot [kN]}; broken joints have none."""
     strengths = {}
     for joint in model.joints:
-        if joint.end == "bottom" and joint.kind not in WALL_KINDS and model.element(joint.a).kind == "column":
+        if joint.end == "bottom" and joint.sheet is None and model.element(joint.a).kind == "column":
             allowable = joint.whole(joint.strength) * (rules.ALLOWABLE_YIELD if joint.law == "slip" else 1.0)
             strengths[joint.a] = strengths.get(joint.a, 0.0) + (0.0 if joint.broken else allowable / 1000)
     return strengths

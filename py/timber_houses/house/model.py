@@ -6,7 +6,6 @@ from functools import cached_property
 
 import numpy as np
 
-from ..base.joint_kinds import WALL_COLUMN
 from .errors import HouseError
 from .geometry import polyhedron
 
@@ -174,11 +173,15 @@ class HouseModel:
         return [e for e in self.elements if e.kind in kinds and group in (None, e.group)]
 
     @property
+    def sheets(self):
+        """{Sheet: its number}, in the order of the joints."""
+        return {sheet: k for k, sheet in enumerate(dict.fromkeys(joint.sheet for joint in self.joints if joint.sheet))}
+
+    @property
     def joints_text(self):
         """'412 joints, 16 wall sheets': joints without those of walls; sheets only where there are some."""
-        counts = self.counts()
-        sheets = counts["joints_by_kind"].get(WALL_COLUMN, 0)
-        return f"{counts['joints']} joints" + (f", {sheets} wall sheet{'s' * (sheets != 1)}" if sheets else "")
+        joints, sheets = sum(joint.sheet is None for joint in self.joints), len(self.sheets)
+        return f"{joints} joints" + (f", {sheets} wall sheet{'s' * (sheets != 1)}" if sheets else "")
 
     def counts(self):
         """Numbers to check a house: elements, columns, braces, joints without those of walls, kinds, masses [kg]."""
@@ -187,7 +190,7 @@ class HouseModel:
                 "free": sum(not e.fixed for e in self.elements),
                 "columns_by_section": dict(Counter(round(e.section[0], 4) for e in columns)),
                 "columns_by_storey": dict(Counter(f"{e.group} {e.storey}" for e in columns)), "braces": len(braces),
-                "walls": len({(j.a, j.b) for j in self.joints if j.kind == WALL_COLUMN}),
+                "walls": len({(sheet.low, sheet.high) for sheet in self.sheets}),
                 "braces_by_storey": dict(Counter(f"{e.group} {e.storey}" for e in braces)),
                 "joints": sum(j.sheet is None for j in self.joints),
                 "joints_by_kind": dict(Counter(j.kind for j in self.joints)),

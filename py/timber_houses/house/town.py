@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial import ConvexHull
 
-from ..base.errors import one_line
+from ..base.errors import located, one_line
 from ..base.input_file import is_file, shown
 from .description import house_path, require_snow_depth
 from .errors import HouseError
@@ -51,6 +51,11 @@ class Lot:
         angle = math.radians(self.rotation)
         c, s = turn[quarters % 4] if rest == 0 else (math.cos(angle), math.sin(angle))
         return np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]], float)
+
+    def located(self):
+        """Context in which an InputError gets the lot's name before its message, unless it begins with file and line.
+        """
+        return located(f"lot {self.name}", known=self.where.rpartition(": ")[0])
 
     def outlines(self, model):
         """[(n, 2) corners in the town] of the convex parts of the plan of its HouseModel [m]."""

@@ -19,16 +19,11 @@ def weigh(model):
     columns and walls below and
                             above; of this level and all higher ones, the weight that drives the storey's shear. Without
                             snow."""
-    area = sum(floor_area(model, group, storey) for group, storeys in model.storey_levels.items() for storey in storeys)
+    area = sum(model.plans[group][storey].area for group, storeys in model.storey_levels.items() for storey in storeys)
     total = weight_of(sum(e.mass for e in model.elements if not e.fixed and e.kind != "snow"))
     return {"total_kn": round(total, 3), "snow_kn": round(weight_of(sum(e.mass for e in model.of_kind("snow"))), 3),
             "floor_area_m2": round(area, 3), "per_floor_area_kn_m2": round(total / area, 3) if area > 0 else None,
             "storeys": {group: _storeys(model, group) for group, storeys in model.storey_levels.items() if storeys}}
-
-
-def floor_area(model, group, storey):
-    """Of a storey, between the axes of its outer columns. [m2]"""
-    return model.plans[group][storey].area
 
 
 def level_masses(model, group, without=None):

@@ -52,7 +52,7 @@ def describe_elements(model):
 
 
 def describe_joints(model):
-    sheets = sheet_numbers(model)
+    sheets = model.sheets
     specs, joints = model.joints, list(find_engine(yw.JointEngine).joints)
     described = record.describe_joints(joints, range(len(model.elements)))
     described["damaged"] = np.array([s.broken for s in specs], bool)  # of a resumed run, too
@@ -62,14 +62,9 @@ def describe_joints(model):
 
 
 def describe_sheets(model):
-    number, sheets = element_numbers(model), list(sheet_numbers(model))
+    number, sheets = element_numbers(model), list(model.sheets)
     ends = (np.array([number[getattr(sheet, end)] for sheet in sheets], "i4") for end in ("low", "high"))
     return frames.Sheets([sheet.type for sheet in sheets], [sheet.opening for sheet in sheets], *ends)
-
-
-def sheet_numbers(model):
-    """{Sheet: its number}, in the order of the joints."""
-    return {sheet: k for k, sheet in enumerate(dict.fromkeys(joint.sheet for joint in model.joints if joint.sheet))}
 
 
 def describe_levels(model):

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, replace
 
 from ..base.notes import noted
-from ..house import Town, load_house, load_town
+from ..house import Town, load_town
 from ..motion import constant_note, interpolation_error, onset
 from ..motion.processing import in_axes
 from ..recording.summary_parts import PartOfRecord, Record
@@ -33,22 +33,20 @@ def planned(options):
         own = replace(options, name=f"{options.title}.{lot.name}", house=lot.house,
                       snow=options.snow if lot.snow is None else lot.snow,
                       out=options.folder / "lots" / lot.name, no_views=True, quiet=True)
-        scenario = _scenario(own, motion and in_axes(motion, lot.axes), delay, last)
-        lots.append((replace(scenario, lot=lot.name), own))
+        with lot.located():
+            lots.append((_scenario(own, motion and in_axes(motion, lot.axes), delay, last, lot.name), own))
     return TownPlan(town, lots, motion and record(motion, options.factor, options.dt))
 
 
-def _scenario(options, motion, delay=0.0, last=0.0):
-    """motion: GroundMotion or None; delay: time at which it begins, last: the largest of a town [s]"""
+def _scenario(options, motion, delay=0.0, last=0.0, lot=None):
+    """motion: GroundMotion or None; delay: time at which it begins, last: the largest of a town [s]; lot: its name"""
     duration = options.simulated(motion) + (last if options.duration is None else 0.0)
-    snow = options.snow if options.snow is not None else load_house(options.house).data["snow"]["depth"]
-    return Scenario(options.title, options.house, motion, snow_depth=snow, scale=options.factor,
+    return Scenario(options.title, options.house, motion, snow_depth=options.snow, scale=options.factor,
                     delay=delay if motion else 0.0, dt=options.dt, duration=duration,
                     until_collapse=options.until_collapse, until_rest=options.duration is None,
-                    joint_damping=options.joint_damping,
-                    wall_level=options.walls, disturb=options.disturb,
+                    joint_damping=options.joint_damping, wall_level=options.walls, disturb=options.disturb,
                     options={"skip_rest": 0} if options.every_step else {},
-                    record=motion and record(motion, options.factor, options.dt, delay))
+                    record=motion and record(motion, options.factor, options.dt, delay), lot=lot)
 
 
 def record(motion, scale, dt, delay=0.0):

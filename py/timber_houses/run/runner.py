@@ -296,4 +296,4 @@ def explain_removal(options):
 def title(scenario, model):
     """Title of the pictures: house and loads."""
     damped = "" if scenario.joint_damping is None else f", joint damping {scenario.joint_damping:g}"
-    return f"{house_name(model.name, scenario.lot)}: {loads(scenario.motion is not None, scenario.snow_depth)}{damped}"
+    return f"{house_name(model.name, scenario.lot)}: {loads(scenario.motion is not None, model.snow_depth)}{damped}"

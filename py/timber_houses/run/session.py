@@ -42,7 +42,6 @@ def _built(kind, scenario, options):
         O.pause()
         O.wait()
     guard()
-    guard()
     with deferred_interrupt():
         return kind(scenario, options)
 

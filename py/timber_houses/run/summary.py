@@ -49,8 +49,8 @@ def summary(scenario, observed, histories, tables, wall_s, made_from, cut_off=No
     draft = Summary(
         scenario=scenario.name, lot=scenario.lot, model=model.name,
         description=model.description,
-        earthquake=scenario.motion is not None, snow=scenario.snow_depth > 0,
-        snow_depth_m=scenario.snow_depth, snow_mass_kg=model.counts()["mass_snow"], weight=decode(Weight, weigh(model)),
+        earthquake=scenario.motion is not None, snow=model.snow_depth > 0,
+        snow_depth_m=model.snow_depth, snow_mass_kg=model.counts()["mass_snow"], weight=decode(Weight, weigh(model)),
         diagnosis=decode(Diagnosis, {**diagnose(model), "disagreement": ""}), joint_damping=scenario.joint_damping,
         walls=Walls(level=model.law["wall_level"], other=scenario.other_walls) if model.law["wall_level"] else None,
         record=scenario.record, dt=scenario.dt, duration_s=simulated, until_collapse=scenario.until_collapse,

@@ -10,7 +10,6 @@ import yade.wrapper as yw
 from yade_timber.plugin import compiled
 
 from ..base.atomic_write import write_text
-from ..base.errors import located
 from ..base.files import remove_parts
 from ..base.lock import prepare_folder
 from ..base.processors import processors
@@ -40,7 +39,7 @@ class TownRun(Stoppable):
         self.runs, self.scenes = [], []
         for lot, (scenario, lot_options) in zip(self.town.lots, plan.lots):
             prepare_folder(lot_options.folder, options.named("out"))
-            with located(f"lot {lot.name}", known=lot.where.rpartition(": ")[0]):
+            with lot.located():
                 self.runs.append(Run(scenario, lot_options))
             self.scenes.append(O._sceneObj)
         self.lots = list(zip(self.town.lots, self.runs))
@@ -55,9 +54,9 @@ class TownRun(Stoppable):
     @contextmanager
     def _of(self, number):
         """Context in which the scene of a lot is YADE's current one; gives its Run."""
-        before, lot = compiled.swap_scene(self.scenes[number]), self.town.lots[number]
+        before = compiled.swap_scene(self.scenes[number])
         try:
-            with located(f"lot {lot.name}", known=lot.where.rpartition(": ")[0]):
+            with self.town.lots[number].located():
                 yield self.runs[number]
         finally:
             compiled.swap_scene(before)
@@ -156,7 +155,7 @@ class TownRun(Stoppable):
         for lot, run in self.lots:
             summary, scenario = run.summary, run.scenario
             drift, residual = summary.largest_drift()[0], summary.largest_drift("residual_drift")[0]
-            place = lot.name, summary.model, lot.x, lot.y, lot.rotation, scenario.snow_depth, round(scenario.delay, 6)
+            place = lot.name, summary.model, lot.x, lot.y, lot.rotation, summary.snow_depth_m, round(scenario.delay, 6)
             times = ["" if time is None else time for time in (summary.tilt_time_s, summary.collapse_time_s)]
             joints, sheets = summary.joints_and_sheets
             rows.append((*place, summary.verdict, summary.diagnosis.iw, drift, residual, *times, *joints, *sheets,

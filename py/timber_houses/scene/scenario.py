@@ -4,14 +4,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 import yade.wrapper as yw
-from yade.minieigenHP import Vector2
 from yade_timber.plugin import compiled
 from yade_timber.scene import bodies, engines
-from yade_timber.scene.joints import PARAMETERS, PER_JOINT, attribute, make_joint
+from yade_timber.scene.joints import PARAMETERS, make_joint
 from yade_timber.scene.queries import stable_dt
 
 from ..base.colors import KINDS
-from ..base.joint_kinds import WALL_KINDS
 from ..base.time_step import DEFAULT_DT, rest_stride
 from ..house import build_house, load_house
 from ..house.disturbance import disturb
@@ -25,19 +23,19 @@ O = yw.Omega()
 
 @dataclass
 class Scenario:
-    """House, loads and time of a run. house: name of a shipped house or path of a YAML file; motion: GroundMotion or
-    None; snow_depth [m].
+    """House, loads and time of a run. house: name of a shipped house or path of a file; motion: GroundMotion or None;
+    snow_depth [m], joint_damping: ratio of sway and joints [-], wall_level: of walls of a rated multiplier, None for
+    each: the house's own.
 
     scale: factor on the motion [-]; delay: time at which it begins [s]; dt, duration [s]; until_collapse, until_rest:
-    whether a collapse ends the run, whether the rest of its wreck does; joint_damping: ratio of sway and joints [-],
-    wall_level: of walls of a rated multiplier, None for both: the house's own; disturb: seed of the house's
-    disturbance, None: none; options: of `engines.engines`; record, other_walls: of the summary, on the motion and on
-    walls of the other level; lot: of a town."""
+    whether a collapse ends the run, whether the rest of its wreck does; disturb: seed of the house's disturbance, None:
+    none; options: of `engines.engines`; record, other_walls: of the summary, on the motion and on walls of the other
+    level; lot: of a town."""
 
     name: str
     house: str
     motion: object = None
-    snow_depth: float = 0.0
+    snow_depth: float | None = None
     scale: float = 1.0
     delay: float = 0.0
     dt: float = DEFAULT_DT
@@ -52,12 +50,15 @@ class Scenario:
     other_walls: object = None
     lot: str | None = None
 
+    def __post_init__(self):
+        self.description = load_house(self.house)
+
     def build_model(self):
-        model = build_house(load_house(self.house), snow_depth=self.snow_depth, wall_level=self.wall_level)
+        model = build_house(self.description, self.snow_depth, wall_level=self.wall_level)
         if self.joint_damping is not None:
             model.law = {**model.law, "joint_damping": self.joint_damping}
             for joint in model.joints:
-                if joint.kind not in WALL_KINDS:
+                if joint.sheet is None:
                     joint.damping_ratio = self.joint_damping
         if self.disturb is not None:
             disturb(model, self.disturb)
@@ -67,7 +68,7 @@ class Scenario:
 def build(scenario):
     """Build the scenario's scene in an emptied YADE; returns the HouseModel."""
     model = scenario.build_model()
-    if model.law["joint_damping"] > 0 and any(joint.kind in WALL_KINDS for joint in model.joints):
+    if model.law["joint_damping"] > 0 and any(joint.sheet for joint in model.joints):
         damp_sway(model)
     O.reset()
     ids = add_elements(model)
@@ -96,7 +97,7 @@ def damp_sway(model):
         return  # which the run will meet and report itself
     for structure in model.storey_levels:
         bodies = {ids[element.name] for element in model.elements if element.group == structure}
-        chosen = np.array([joint.group == structure and joint.kind in WALL_KINDS for joint in model.joints], bool)
+        chosen = np.array([joint.group == structure and joint.sheet is not None for joint in model.joints], bool)
         for joint, time in zip(model.joints, sway.damping_times(model.law["joint_damping"], bodies, chosen)):
             joint.damping_time += float(time)
 
@@ -137,20 +138,16 @@ def make_material(name, spec, model):
                          bearing=model.law["bearing"] or None)
 
 
+JOINT_VALUES = ("points", "normal", "per", "kn", "ks", "strength", "kind", "name", "law", "envelope", "damping_ratio",
+                "damping_time", "initial_damping")
+"""Of a JointSpec, which `make_joint` takes as they are."""
+
+
 def add_joints(model, ids):
     """TimberJoints of the model, between the bodies in their present placement."""
-    return [make_joint(ids[j.a], ids[j.b], j.points, j.normal, **attributes(j)) for j in model.joints]
-
-
-def attributes(joint):
-    """{attribute of TimberJoint: value} of a JointSpec."""
-    law = {name: getattr(joint.cycles or joint, name) for name in PARAMETERS[joint.law]}
-    values = {name: getattr(joint, name)
-              for name in ("kn", "ks", "strength", "kind", "name", "law", "damping_ratio", "damping_time",
-                           "initial_damping")}
-    return {"perJoint": PER_JOINT[joint.per], "broken": [int(joint.broken)] * len(joint.points),
-            "envelope": [Vector2(*point) for point in joint.envelope],
-            **{attribute(name): value for name, value in (values | law).items()}}
+    return [make_joint(ids[j.a], ids[j.b], broken=[int(j.broken)] * len(j.points),
+                       **{name: getattr(j, name) for name in JOINT_VALUES},
+                       **{name: getattr(j.cycles or j, name) for name in PARAMETERS[j.law]}) for j in model.joints]
 
 
 LEVEL_KINDS = (("floor",), ("beam", "roof"), ("rafter",))

@@ -3,14 +3,14 @@
 from dataclasses import replace
 
 from ..base.errors import RunError
-from ..house import LEVELS, has_rated_walls, load_house
+from ..house import LEVELS, has_rated_walls
 from ..recording.summary_parts import OtherWalls
 from .driver import Task, run_missing
 
 
-def run(options):
-    """OtherWalls of the summary, from a run in the folder walls_LEVEL; None without rated walls. Raises RunError."""
-    data = load_house(options.house).data
+def run(options, data):
+    """OtherWalls of the summary, from a run in the folder walls_LEVEL; None without rated walls. data: of the house's
+    Description. Raises RunError."""
     if not has_rated_walls(data):
         return None
     (level,) = set(LEVELS) - {options.walls or data["law"]["wall_level"]}

@@ -11,7 +11,7 @@ from . import arguments
 from .background import between_steps
 from .engines import find_engine
 
-PER_JOINT = {"spring": False, "joint": True}  # owner of stiffness and strength -> TimberJoint.perJoint
+PER = ("spring", "joint")  # owners of stiffness and strength
 O = yw.Omega()
 
 
@@ -85,7 +85,7 @@ def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strengt
     require_near(springs["points"], id1, id2)
     if slip is not None:
         arguments.instance("connect: slip", slip, SlipLaw, "a SlipLaw or None")
-        springs |= {"law": "slip", **{attribute(key): arguments.number(f"connect: slip.{key}", value)
+        springs |= {"law": "slip", **{key: arguments.number(f"connect: slip.{key}", value)
                                       for key, value in vars(slip).items()}}
     joint, engine = make_joint(id1, id2, **springs), find_engine(yw.JointEngine) or add_joint_engine()
     if engine.hasSame(joint):
@@ -97,8 +97,8 @@ def connect(id1, id2, points, normal=None, stiffness=(58800.0, 58800.0), strengt
 
 def checked_springs(points, normal, stiffness, strength, per, kind, name, damping_ratio):
     """Arguments of `make_joint` from those of `connect`. Raises ValueError or TypeError for a wrong one."""
-    if not isinstance(per, str) or per not in PER_JOINT:
-        arguments.refuse(ValueError, "connect: per", per, f"one of {', '.join(PER_JOINT)}")
+    if not isinstance(per, str) or per not in PER:
+        arguments.refuse(ValueError, "connect: per", per, f"one of {', '.join(PER)}")
     points = arguments.points("connect: points", points)
     if normal is not None:
         normal = arguments.vector("connect: normal", normal)
@@ -114,7 +114,7 @@ def checked_springs(points, normal, stiffness, strength, per, kind, name, dampin
     if not 0 <= damping_ratio <= 1:
         arguments.refuse(ValueError, "connect: damping_ratio", damping_ratio, "between 0 and 1")
     return {"points": points, "normal": normal, "kind": kind, "name": name, "kn": kn, "ks": ks, "strength": strength,
-            "perJoint": PER_JOINT[per], "dampingRatio": damping_ratio}
+            "per": per, "damping_ratio": damping_ratio}
 
 
 def require_near(points, *ids):
@@ -139,15 +139,16 @@ def add_joint_engine():
     return engine
 
 
-def make_joint(id1, id2, points, normal=None, **attributes):
-    """TimberJoint between two bodies in their present placement. points: of its springs (n, 3) [m]; normal: as in
-    `connect`; attributes: further ones of TimberJoint."""
+def make_joint(id1, id2, points, normal, per, **values):
+    """TimberJoint between two bodies in their present placement. points: of its springs (n, 3) [m]; normal, per: as in
+    `connect`; values: of further attributes, as `damping_ratio`."""
     s1, s2 = O.bodies[id1].state, O.bodies[id2].state
     points = [Vector3(*p) for p in points]
     direction = Vector3(*normal) if normal is not None else s2.pos - s1.pos
     return yw.TimberJoint(id1=id1, id2=id2, anchors1=[s1.ori.conjugate() * (p - s1.pos) for p in points],
                           anchors2=[s2.ori.conjugate() * (p - s2.pos) for p in points],
-                          normal=s1.ori.conjugate() * direction.normalized(), **attributes)
+                          normal=s1.ori.conjugate() * direction.normalized(), perJoint=per == "joint",
+                          **{attribute(name): value for name, value in values.items()})
 
 
 @cache
