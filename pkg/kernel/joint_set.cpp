@@ -79,6 +79,7 @@ size_t JointSet::take(JointSet& from, size_t index)
 	joints.push_back(std::move(from.joints[index]));
 	from.joints[index] = {};
 	joints.back().firstGroup = groups.size();
+	joints.back().line = joints.size() - 1;
 	groups.insert(groups.end(), lanes.begin(), lanes.end());
 	const JointModes& modesThere = from.modesOf(from.joints[index]);
 	modesOf(joints.back()) = modesThere;
