@@ -120,8 +120,14 @@ void TimberJoint::moveTo(const shared_ptr<timber::JointSet>& other)
 
 timber::JointEntry TimberJoint::parameters() const
 {
-	timber::JointEntry joint { id1, id2, normal, { share() * kn, share() * ks }, { strength, perJoint },
-		{ dampingRatio, dampingTime }, initialDamping };
+	timber::JointEntry joint;
+	joint.bodyA = id1;
+	joint.bodyB = id2;
+	joint.normal = normal;
+	joint.stiffness = { share() * kn, share() * ks };
+	joint.strength = { strength, perJoint };
+	joint.damping = { dampingRatio, dampingTime };
+	joint.initialDamping = initialDamping;
 	if (law == "wall") joint.law = timber::WallSprings({ wallCycles(share()), backbone() }, normal);
 	else if (law == "slip")
 		joint.law = timber::SlipSprings({ joint.stiffness.normal, frictionShare, backbone() }, joint.axis());
