@@ -151,7 +151,8 @@ template <int n> ModalMatrix<n> SpringSteps<n>::slope(const Step& step, double k
 	return matrix;
 }
 
-/// The same of linear springs, for which (2) is the mean. Returns whether none reaches the strength.
+/// tryStretches() of linear springs, whose force (2) is the mean of both ends. Returns whether none reaches the
+/// strength.
 template <int n> bool SpringSteps<n>::tryLinear(double h, const Vec& after)
 {
 	for (size_t i = 0; i < springs.size(); ++i)
