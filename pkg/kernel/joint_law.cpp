@@ -139,7 +139,7 @@ namespace {
 			            end = broadcast<Lanes>(placement.distance) + armB,
 			            stretch = select(s.intact, Vec3s(end - axesA * s.anchorsA), none);
 			SteadySprings state;
-			if (!law.areSteady(first, axesA.transpose() * stretch, s.intact, state)) return false;
+			if (!law.steadyForces(first, axesA.transpose() * stretch, s.intact, state)) return false;
 			s.stretches = stretch;
 			s.forces = select(s.intact, Vec3s(axesA * state.force), none);
 			const Lanes zero = 0.;
@@ -272,12 +272,12 @@ SpringTrial BrittleSprings::trial(size_t, const Vec3& to, bool) const
 	return state;
 }
 
-bool BrittleSprings::linearForces(const std::vector<Vec3>& stretches, std::vector<Vec3>& forces) const
+bool BrittleSprings::linearForces(std::vector<Vec3>& springs) const
 {
 	double sum = 0, largest = 0;
-	for (size_t i = 0; i < stretches.size(); ++i) {
-		forces[i] = stiffness * stretches[i];
-		const double square = forces[i].squaredNorm();
+	for (Vec3& spring : springs) {
+		spring = stiffness * spring;
+		const double square = spring.squaredNorm();
 		if (strength.perJoint) sum += std::sqrt(square);
 		largest = std::max(largest, square);
 	}

@@ -180,7 +180,7 @@ public:
 	SpringTrial trial(size_t spring, const Vec3& to, bool keepsForce) const override;
 	SpringState commit(size_t spring, const Vec3& to) override { return trial(spring, to, false); }
 	bool isLinear() const override { return true; }
-	bool linearForces(const std::vector<Vec3>& stretches, std::vector<Vec3>& forces) const override;
+	bool linearForces(std::vector<Vec3>& springs) const override;
 	/// With P_max of the joint, the forces beyond it fall by the same number: the closest ones in terms of energy.
 	double limit(std::vector<SpringTrial>& states, std::vector<Vec3>& shared) const override;
 };

@@ -216,7 +216,7 @@ SpringState SlipSprings::commit(size_t spring, const Vec3& to)
 	return { force.force, force.energy, force.dissipated, isSpent(spring), force.share };
 }
 
-bool SlipSprings::areSteady(size_t first, const Vec3s& to, Lanes::Mask acting, SteadySprings& state) const
+bool SlipSprings::steadyForces(size_t first, const Vec3s& to, Lanes::Mask acting, SteadySprings& state) const
 {
 	if (!axis.isZero(0)) return false;
 	const size_t count = largestStretches.size() - first;

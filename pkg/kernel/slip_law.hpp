@@ -134,7 +134,7 @@ public:
 	void setHistories(std::vector<Vec3> plastic, std::vector<double> largest);
 	SpringTrial trial(size_t spring, const Vec3& to, bool keepsForce) const override;
 	SpringState commit(size_t spring, const Vec3& to) override;
-	bool areSteady(size_t first, const Vec3s& to, Lanes::Mask acting, SteadySprings& state) const override;
+	bool steadyForces(size_t first, const Vec3s& to, Lanes::Mask acting, SteadySprings& state) const override;
 	bool isSpent(size_t spring) const override { return largestStretches[spring] >= law.ultimateStretch(); }
 	double steepestFall() const override { return law.steepestFall(); }
 };

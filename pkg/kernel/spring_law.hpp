@@ -40,7 +40,7 @@ public:
 	/// The same with all of the law; the history goes on to the other stretch.
 	virtual SpringState commit(size_t spring, const Vec3& to) = 0;
 	/// What commit() gives for the springs from `first` on, if their histories stay; else false. acting: lanes that count.
-	virtual bool areSteady(size_t first, const Vec3s& to, Lanes::Mask acting, SteadySprings& state) const
+	virtual bool steadyForces(size_t first, const Vec3s& to, Lanes::Mask acting, SteadySprings& state) const
 	{
 		(void)first, (void)to, (void)acting, (void)state;
 		return false;
@@ -51,10 +51,10 @@ public:
 	virtual double steepestFall() const { return 0; }
 	/// Whether forces are linear in the stretches up to the strength.
 	virtual bool isLinear() const { return false; }
-	/// Forces of linear springs at trial stretches, if the strength admits them; else false.
-	virtual bool linearForces(const std::vector<Vec3>& stretches, std::vector<Vec3>& forces) const
+	/// Replaces trial stretches of linear springs by their forces. Returns whether the strength admits these.
+	virtual bool linearForces(std::vector<Vec3>& springs) const
 	{
-		(void)stretches, (void)forces;
+		(void)springs;
 		return false;
 	}
 	/// Applies a strength that the springs share to trial states. shared: out, unit vectors of the forces that it

@@ -52,7 +52,6 @@ SpringSteps<n>::SpringSteps(SpringLaw& l, std::vector<SpringStep<n>> steps, doub
         : law(&l)
         , states(steps.size())
         , shared(steps.size(), Vec3::Zero())
-        , stretches(steps.size())
         , forces(steps.size())
         , springs(std::move(steps))
         , account(stored)
@@ -156,12 +155,10 @@ template <int n> ModalMatrix<n> SpringSteps<n>::slope(const Step& step, double k
 template <int n> bool SpringSteps<n>::tryLinear(double h, const Vec& after)
 {
 	for (size_t i = 0; i < springs.size(); ++i)
-		stretches[i] = springs[i].placed + h / 2 * (springs[i].rates * after);
-	if (!law->linearForces(stretches, forces)) return false;
-	for (size_t i = 0; i < springs.size(); ++i) {
-		springs[i].stretch = stretches[i];
+		forces[i] = springs[i].stretch = springs[i].placed + h / 2 * (springs[i].rates * after);
+	if (!law->linearForces(forces)) return false;
+	for (size_t i = 0; i < springs.size(); ++i)
 		springs[i].force = (springs[i].start.force + forces[i]) / 2;
-	}
 	return true;
 }
 
@@ -174,7 +171,10 @@ Modal<n> SpringSteps<n>::newtonStep(const Step& step, const Vec& free, const Vec
 		if (springs.size() == 1 && !law->isLinear())
 			return singleSpringStep(springs[0], tangentOf(0, point.kappa), step, point.residual);
 		const Eigen::LDLT<Mat> factors(slope(step, point.kappa));
-		isAffine = law->isLinear() && tryLinear(step.h, after);
+		// A spring beyond its strength at z0, whose strength was lowered, has a force that is no mean
+		isAffine = law->isLinear() && std::none_of(springs.begin(), springs.end(), [](const SpringStep<n>& s) {
+			return s.start.breaks;
+		}) && tryLinear(step.h, after);
 		if (isAffine) {
 			inverseSlope = factors.solve(Mat::Identity());
 			base = after - inverseSlope * (point.residual + free);

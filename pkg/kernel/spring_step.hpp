@@ -73,7 +73,7 @@ template <int n> class SpringSteps {
 	SpringLaw* law = nullptr;
 	std::vector<SpringTrial> states; ///< of the springs at z1
 	std::vector<Vec3> shared; ///< of SpringLaw::limit()
-	std::vector<Vec3> stretches, forces; ///< of SpringLaw::linearForces()
+	std::vector<Vec3> forces; ///< of SpringLaw::linearForces()
 	Vec applied = Vec::Zero(); ///< q_a
 	Mat inverseSlope; ///< of linear springs below the strength: eta' = base + inverseSlope E is the root of (3)
 	Vec base; ///< likewise

@@ -5,6 +5,7 @@
 #include <kernel/contact_solver.hpp>
 #include <kernel/slip_law.hpp>
 #include <memory>
+#include <random>
 
 using namespace timber;
 
@@ -240,6 +241,40 @@ TEST(StiffJoints, TangentOfTheMovement)
 			Vec3::Zero() };
 		EXPECT_EQ(SpringSteps<6>(law, { step }, 0, 1e-4).tangent(), tangent) << placed;
 	}
+}
+
+/// Later visits of linear springs evaluate an affine function; Newton's method from the start gives the same impulse,
+/// below the strength, beyond it, and where the strength was exceeded before the step.
+TEST(StiffJoints, LaterVisitsGiveWhatNewtonsMethodDoes)
+{
+	std::mt19937 random(66);
+	std::uniform_real_distribution<double> number(-1, 1);
+	const auto filled = [&](auto x, double size) {
+		return decltype(x)(decltype(x)::NullaryExpr([&] { return size * number(random); }));
+	};
+	const double k = 1e8, h = 5e-4, elastic = 1e12;
+	for (const bool perJoint : { false, true })
+		for (const double strength : { elastic, 3e4, 1e4, 1e2 })
+			for (int trial = 0; trial < 50; ++trial) {
+				BrittleSprings law({ k, 0.3 * k }, { strength, perJoint }, Vec3::UnitX());
+				std::vector<SpringStep<6>> steps;
+				for (size_t s = 0; s < 3; ++s)
+					steps.push_back({ s, filled(Vec3(), 1e-4), filled(Vec3(), 1e-4), Vec3::Zero(),
+					        filled(Mat36(), 0.3), filled(Vec3(), 1e3) });
+				const Vec6 before = filled(Vec6(), 1), decay = filled(Vec6(), 0.1).cwiseAbs();
+				const ModalStep<6> step { h, before, decay };
+				SpringSteps<6> visited(law, steps, 1e9, h);
+				for (int visit = 0; visit < 4; ++visit) {
+					const Vec6 free = filled(Vec6(), visit == 3 ? 10 : 1);
+					SpringSteps<6> fresh(law, steps, 1e9, h);
+					const Vec6 wanted = fresh.impulse(step, free, free),
+					           found = visited.impulse(step, free, free);
+					// Newton's method ends at springTolerance; beyond the strength the root is as
+					// exact where it converges
+					EXPECT_LT((found - wanted).norm(), 1e-9 * wanted.norm())
+					        << perJoint << " " << strength << " " << visit;
+				}
+			}
 }
 
 /// One spring (matrices 3 x 3) moves bodies as two of half its stiffness and strength at the same place (6 x 6) do.
