@@ -47,15 +47,19 @@ void awaitStep(long before)
 	PyEval_RestoreThread(released);
 }
 
-/// Ends a run in the background and returns when its last step is done. Not to be called by the thread that computes
-/// the steps, nor before the run's thread has started (awaitStep): YADE would free what the thread is about to use.
-void finishStep()
+/// Ends a run in the background and returns when its last step is done: whether the run would have gone on. It waits for
+/// a whole step: a run that has just reached its limits has none any more and still counts as running, and YADE would
+/// free what a thread that has not started is about to use. Not to be called by the thread that computes the steps.
+bool finishStep()
 {
 	yade::Omega& omega = yade::Omega::instance();
+	awaitStep(omega.getScene()->iter);
 	PyThreadState* released = PyEval_SaveThread(); // a PyRunner in that step needs the interpreter
+	const bool runs = omega.isRunning();
 	omega.stop();
 	omega.createSimulationLoop();
 	PyEval_RestoreThread(released);
+	return runs;
 }
 
 /// Checks a body of the scene whose shape, material or state was replaced. Collider and HealthCheck then check the

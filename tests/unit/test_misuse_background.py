@@ -213,6 +213,18 @@ def test_contexts_may_be_nested(column):
     assert not O.running and O.iter == end
 
 
+def test_a_run_that_has_just_reached_its_end(column):
+    """It counts as running until its thread is done, and its limit is gone by then: it is not continued."""
+    for _ in range(5000):
+        end = O.iter + 2
+        O.run(2)
+        for _ in range(3):
+            yt.energy()
+        while O.running and O.iter <= end:
+            pass
+        assert O.iter == end
+
+
 def test_a_run_that_is_paused_in_the_step(column):
     """By an engine, while this thread waits for the end of that step. `O.run` waits for the first one."""
     column.add(f"{SLOW}; O.iter == {O.iter + 1} and O.pause()")

@@ -29,10 +29,9 @@ def between_steps():
         yield
         return
     with _turn:
-        pauses, limits, goes_on = _pauses, (O.stopAtIter, O.stopAtTime), O.running
-        compiled.finish_step()
+        pauses, limits = _pauses, (O.stopAtIter, O.stopAtTime)
         # the last step changes the limits, and one that failed was not left
-        goes_on = goes_on and limits == (O.stopAtIter, O.stopAtTime) and O.subStep < 0
+        goes_on = compiled.finish_step() and limits == (O.stopAtIter, O.stopAtTime) and O.subStep < 0
         try:
             yield
         finally:
