@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Scenes changed, read and saved while they run in the background, and energies of a scene that has made no step."""
 import itertools
+import os
 import threading
 import time
 
@@ -213,9 +214,18 @@ def test_contexts_may_be_nested(column):
     assert not O.running and O.iter == end
 
 
-def test_a_run_that_has_just_reached_its_end(column):
+@pytest.fixture
+def one_core():
+    """Threads that are started by this one share a core: any place of a step may be interrupted."""
+    cores = os.sched_getaffinity(0)
+    os.sched_setaffinity(0, {min(cores)})
+    yield
+    os.sched_setaffinity(0, cores)
+
+
+def test_a_run_that_has_just_reached_its_end(column, one_core):
     """It counts as running until its thread is done, and its limit is gone by then: it is not continued."""
-    for _ in range(5000):
+    for _ in range(15000):
         end = O.iter + 2
         O.run(2)
         for _ in range(3):
