@@ -128,10 +128,10 @@ void ContactSolver::solvePair(SolverPair& pair, bool forwards)
 }
 
 /// One Gauss-Seidel visit of a joint.
-template <int n> void ContactSolver::solveJoint(ModalConstraint<n>& joint, double threshold, double share)
+template <int n> void ContactSolver::solveJoint(ModalConstraint<n>& joint, double share)
 {
 	PairVector velocity = changeOf(joint);
-	solveModes(joint, velocity, threshold, share);
+	solveModes(joint, velocity, share);
 	setChange(joint, velocity);
 }
 
@@ -207,18 +207,17 @@ bool ContactSolver::sweepOnce(double threshold, bool forwards, double share)
 		solvePair(pair, forwards);
 		changed = activateNeighbours(pair, threshold) || changed;
 	}
-	return changed || sweepJoints(threshold, 1, share);
+	return changed || sweepJoints(threshold, share);
 }
 
-/// Returns whether another sweep over the pairs is needed. applied: share of the threshold from which on changes are
-/// applied; share: of the changes of stiff joints [-]
-bool ContactSolver::sweepJoints(double threshold, double applied, double share)
+/// Returns whether another sweep over the pairs is needed. Changes below the threshold are applied as well: they may be
+/// large for a weak dashpot, which must not return energy. share: of the changes of stiff joints [-]
+bool ContactSolver::sweepJoints(double threshold, double share)
 {
 	bool changed = false;
 	visitJoints([&](auto& joint) {
-		const double limit = threshold * joint.thresholdShare;
-		solveJoint(joint, applied * limit * double(joint.count), share);
-		changed = activateNeighbours(joint, limit) || changed;
+		solveJoint(joint, share);
+		changed = activateNeighbours(joint, threshold * joint.thresholdShare) || changed;
 	});
 	return changed;
 }
@@ -323,7 +322,7 @@ void ContactSolver::stepAlong(ConjugateDirection& d)
 bool ContactSolver::sweepAll(double threshold)
 {
 	++sweepCount;
-	bool changed = sweepJoints(threshold, 0);
+	bool changed = sweepJoints(threshold);
 	for (SolverPair& pair : pairs) {
 		solvePair(pair, true);
 		changed = changed || pair.squaredChange > threshold * double(pair.count);
@@ -363,7 +362,7 @@ Convergence ContactSolver::sweepToConvergence(double tolerance)
 {
 	activeUntil.resize(bodies->size(), 0);
 	++sweepCount;
-	visitJoints([&](auto& joint) { solveJoint(joint, 0); });
+	visitJoints([&](auto& joint) { solveJoint(joint, 1); });
 	for (SolverPair& pair : pairs)
 		solvePair(pair, true);
 	const double firstChanges = sumOfChanges();
@@ -374,7 +373,7 @@ Convergence ContactSolver::sweepToConvergence(double tolerance)
 	while (changed && result.sweeps < std::min(maxSweeps, plainSweeps)) {
 		const double share = result.sweeps < relaxedSweeps ? 1 : 0.5;
 		changed = sweepOnce(threshold, result.sweeps % 2 == 0, share);
-		if (changed && result.sweeps % jointInterval == 0) sweepJoints(threshold, 1, share);
+		if (changed && result.sweeps % jointInterval == 0) sweepJoints(threshold, share);
 		++result.sweeps;
 		if (changed) continue;
 		// The impulses of the warm start may have been much larger

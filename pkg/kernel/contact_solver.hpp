@@ -225,7 +225,7 @@ private:
 	}
 	void finishBodies();
 	void warmStart(const SolverPair& pair);
-	template <int n> void solveJoint(ModalConstraint<n>& joint, double threshold, double share = 1);
+	template <int n> void solveJoint(ModalConstraint<n>& joint, double share);
 	template <class Connection> PairVector changeOf(const Connection& c) const
 	{
 		return PairVector::of(weighted[c.bodyA].change, weighted[c.bodyB].change);
@@ -240,7 +240,7 @@ private:
 	bool activateChanged(double threshold);
 	template <class Connection> bool activateNeighbours(const Connection& c, double threshold);
 	bool sweepOnce(double threshold, bool forwards, double share);
-	bool sweepJoints(double threshold, double applied = 1, double share = 1);
+	bool sweepJoints(double threshold, double share = 1);
 	double largestChange() const;
 	void applyRestitution(const SolverPair& pair);
 	bool returnsTooMuch() const;

@@ -254,14 +254,13 @@ namespace {
 	}
 }
 
-template <int n> void solveModes(ModalConstraint<n>& c, PairVector& velocity, double threshold, double share)
+template <int n> void solveModes(ModalConstraint<n>& c, PairVector& velocity, double share)
 {
 	const Modal<n> now = modalNow(c, velocity);
 	const Modal<n> q
 	        = c.springs.empty() ? dashpotImpulse(c, now) : c.springs.impulse(c.step(), now - c.impulse, now),
 	        change = q - c.impulse;
 	c.squaredChange = change.squaredNorm();
-	if (c.squaredChange <= threshold) return;
 	const Modal<n> applied = (c.springs.empty() ? 1 : share) * change;
 	c.impulse += applied;
 	apply(c, velocity, applied);
@@ -300,7 +299,7 @@ template <int n> void finishModes(ModalConstraint<n>& c, const PairVector& chang
 #define TIMBER_INSTANTIATE(n)                                                                                          \
 	template void addSprings(ModalConstraint<n>&, SpringSteps<n>);                                                 \
 	template void warmStart(const ModalConstraint<n>&, PairVector&);                                               \
-	template void solveModes(ModalConstraint<n>&, PairVector&, double, double);                                    \
+	template void solveModes(ModalConstraint<n>&, PairVector&, double);                                            \
 	template ModalLaw<n> modalLaw(ModalConstraint<n>&, const Modal<n>&);                                           \
 	template bool keepsAccount(const ModalConstraint<n>&, const PairVector&);                                      \
 	template void applyExplicitModes(ModalConstraint<n>&, PairVector&);                                            \

@@ -204,10 +204,8 @@ template <int n> void addSprings(ModalConstraint<n>& constraint, SpringSteps<n> 
 /// Applies the impulse of a stiff joint's last forces. change: dW of (8), contact_solver.hpp, in-out.
 template <int n> void warmStart(const ModalConstraint<n>& constraint, PairVector& change);
 
-/// One Gauss-Seidel visit: (3), or (3) of spring_step.hpp. A squared change of at most `threshold` [J] is not applied, a
-/// larger one of a stiff joint in part. share: of it [-]
-template <int n>
-void solveModes(ModalConstraint<n>& constraint, PairVector& change, double threshold, double share = 1);
+/// One Gauss-Seidel visit: (3), or (3) of spring_step.hpp. share: of the change of a stiff joint that is applied [-]
+template <int n> void solveModes(ModalConstraint<n>& constraint, PairVector& change, double share);
 
 /// Impulse of the modes as a function of eta'. after: eta' [kg^1/2 m/s].
 template <int n> struct ModalLaw {

@@ -49,6 +49,31 @@ def test_balance_of_a_rocking_column(sweeps):
     assert abs(yt.energy_residual(terms)) < 1e-3 * terms["imposed_velocity"]
 
 
+@pytest.mark.parametrize("ratio", [1e-4, 1e-2])
+def test_a_weak_dashpot_between_strong_contacts(ratio):
+    """Its impulse, far below the solver's tolerance, is that of the velocities that the contacts leave: it never
+    returns energy, and dissipates in proportion to its ratio."""
+    def step_by_step(ratio):
+        O.reset()
+        O.bodies.append(yt.box((4, 4, 0.2), (0, 0, -0.1), fixed=True))
+        O.bodies.append(yt.box((0.3, 0.3, 0.3), (0, 0, 0.15)))
+        O.bodies.append(yt.box((1, 1, 0.3), (0, 0, 0.45)))
+        O.dt, O.engines = 5e-4, yt.engines()
+        yt.connect(1, 2, [(x, y, 0.3) for x in (-0.1, 0.1) for y in (-0.1, 0.1)], stiffness=(1e6, 3e5),
+                   strength=np.inf, damping_ratio=ratio)
+        yt.set_velocity(2, (0.5, 0.2, 0), (0.1, 0.3, 0.5))
+        forces, sums = find_engine(yw.ContactForces), [0.0]
+        for _ in range(1000):
+            O.step()
+            sums.append(forces.jointDashpot)
+        return np.array(sums)
+
+    sums, reference = step_by_step(ratio), step_by_step(1e-5)
+    assert np.diff(sums).min() >= 0
+    if ratio < 1e-3:  # the motion is the same
+        assert sums[-1] / ratio == pytest.approx(reference[-1] / 1e-5, rel=0.01)
+
+
 def test_without_contacts_the_column_swings_and_comes_to_rest():
     """A member that hangs in one joint: 5 % of critical damping of a mode of 5 /s or more leaves exp(-0.05 * 5 * 40) =
     5e-5 after 40 s.
