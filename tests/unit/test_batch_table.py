@@ -86,6 +86,7 @@ def test_names_follow_house_and_record(table, tmp_path):
     ("house scale\nB 1\nB 1\n", "runs.txt:3: the same run as in line 2"),
     ("house;scale\nB;1\n", "runs.txt:1: "),
     ("house,scale\nB,1,2\n", "runs.txt:2: 3 values for 2 columns"),
+    (f"house,scale\nB,1\nB,{'1' * 140_000}\n", "runs.txt:3: field larger than field limit"),
 ])
 def test_refused_tables(table, text, part):
     with pytest.raises(BatchError) as caught:

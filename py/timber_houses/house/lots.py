@@ -25,8 +25,12 @@ def read_lots(path):
 
 def _of_table(path):
     """[(name, Table)]: a row for each lot, a head with `lot` and KEYS; a unit in brackets is ignored."""
-    rows = csv.reader(text_of(path).removeprefix("\ufeff").splitlines())
-    heads = [head.partition("[")[0].strip() for head in next(rows, [])]
+    lines = csv.reader(text_of(path).removeprefix("\ufeff").splitlines())
+    try:
+        head, *rows = [*lines] or [[]]
+    except csv.Error as problem:
+        raise HouseError(f"{path.name}:{lines.line_num}: {problem}") from None
+    heads = [name.partition("[")[0].strip() for name in head]
     missing = [key for key in ("lot", "house", "x", "y") if key not in heads]
     if missing:
         raise HouseError(f"{path.name}:1: no column {missing[0]}; a table of lots has lot, {', '.join(KEYS)}")
@@ -44,9 +48,11 @@ def _of_map(path):
     """[(name, Table)]: a feature for each lot: a point, or a polygon with the house in the mean of its corners; in its
     properties `name` and KEYS but x and y; others are ignored."""
     try:
-        features = json.loads(text_of(path))["features"]
+        features = json.loads(text_of(path), parse_int=lambda text: parse_value(text, path.name))["features"]
         places = [_place(feature["geometry"]) for feature in features]
         names = [str(feature["properties"]["name"]) for feature in features]
+    except HouseError:
+        raise
     except (ValueError, LookupError, TypeError, RecursionError) as problem:
         raise HouseError(f"{path.name}: no GeoJSON of points or polygons with a name ({type(problem).__name__}:"
                          f" {' '.join(str(problem).split())[:80]})") from None

@@ -34,13 +34,14 @@ def read_table(path):
     if ";" in first:
         raise BatchError(f"{path.name}:{number}: columns are separated by semicolons; separate them by commas or"
                          " blanks")
-    separate = _csv_cells if "," in first else str.split
-    heads = [head.rstrip("!") for head in separate(first)]
-    body = [(number, line) for number, line in body if separate is str.split or set(separate(line)) != {"*"}]
+    separate = _csv_cells if "," in first else lambda line, where: line.split()
+    heads = [head.rstrip("!") for head in separate(first, f"{path.name}:{number}")]
     _check_heads(heads, f"{path.name}:{number}")
     rows, above = [], {}
     for number, line in body:
-        cells = separate(line)
+        cells = separate(line, f"{path.name}:{number}")
+        if "," in first and set(cells) == {"*"}:
+            continue
         if len(cells) != len(heads):
             raise BatchError(f"{path.name}:{number}: {len(cells)} values for {len(heads)} columns;"
                              f" {_remedy(first, line)}")
@@ -115,8 +116,11 @@ def _remedy(first, line):
     return "blanks separate the columns: values contain none, * stands for a default"
 
 
-def _csv_cells(line):
-    return [cell.strip() or "*" for cell in next(csv.reader([line], skipinitialspace=True))]
+def _csv_cells(line, where):
+    try:
+        return [cell.strip() or "*" for cell in next(csv.reader([line], skipinitialspace=True))]
+    except csv.Error as problem:
+        raise BatchError(f"{where}: {problem}") from None
 
 
 def _check_heads(heads, where):
