@@ -249,6 +249,48 @@ void ImplicitJointResult::add(const ImplicitJointResult& other)
 	breaks.insert(breaks.end(), other.breaks.begin(), other.breaks.end());
 }
 
+namespace {
+	/// Search for the joints that are in the solver in a step of h [s].
+	struct JointSearch {
+		static constexpr size_t none = std::numeric_limits<size_t>::max();
+		JointEngine& engine;
+		const Bodies& bodies;
+		const Real h;
+		const bool alsoStiff;
+		std::vector<ImplicitJoint>& found;
+		std::vector<size_t> firsts; ///< place of the first dashpot of each line in `found`
+		Real energy = -1; ///< of the scene, once a joint needs it [J]
+
+		bool isFast(const ImplicitJoint& one)
+		{
+			const Real error = one.joint->yields() ? errorOfYielding(one, h, bodies) : 0;
+			if (error > 0 && energy < 0) energy = energyOf(engine, bodies);
+			return error > 0 && error > timber::yieldError * energy;
+		}
+		/// Lists a joint that acts in the solver; the first dashpot of a line acts for all. Returns whether it is stiff.
+		bool list(size_t index)
+		{
+			timber::JointEntry& joint = engine.jointSet().joints[index];
+			if (!(joint.isDamped() || alsoStiff) || !holds(joint, bodies)) return false;
+			size_t& place = firsts[joint.line];
+			ImplicitJoint* const first = place == none ? nullptr : &found[place];
+			ImplicitJoint one = implicitJoint(engine.jointSet(), index);
+			addModes(one, first, h, bodies);
+			one.isStiff = alsoStiff && (joint.isStiff() || one.isStiff || isFast(one));
+			if (!one.isStiff && !joint.isDamped()) return false;
+			if (!one.isStiff && one.isAxial) {
+				if (first) {
+					first->axis.others += joint.dampingAt(one.tangent).of(one.axis.frequency());
+					return false;
+				}
+				place = found.size();
+			}
+			found.push_back(one);
+			return one.isStiff;
+		}
+	};
+}
+
 ImplicitJointResult findImplicitJoints(
         const Scene& scene, const Bodies& bodies, bool alsoStiff, std::vector<ImplicitJoint>& implicit)
 {
@@ -256,31 +298,12 @@ ImplicitJointResult findImplicitJoints(
 	implicit.clear();
 	JointEngine* engine = findEngine<JointEngine>(scene);
 	if (!engine) return lost;
-	Real energy = -1; // of the scene, once a joint needs it
-	timber::JointSet& set = engine->jointSet();
-	const auto isFast = [&](const ImplicitJoint& one) {
-		const Real error = one.joint->yields() ? errorOfYielding(one, scene.dt, bodies) : 0;
-		if (error > 0 && energy < 0) energy = energyOf(*engine, bodies);
-		return error > 0 && error > timber::yieldError * energy;
-	};
-	constexpr size_t none = std::numeric_limits<size_t>::max();
-	std::vector<size_t> firsts(set.joints.size(), none); // of the dashpots of each line, in `implicit`
-	for (size_t k = 0; k < set.joints.size(); ++k) {
-		timber::JointEntry& joint = set.joints[k];
-		bool isStiff = false;
-		if ((joint.isDamped() || alsoStiff) && holds(joint, bodies)) {
-			size_t& place = firsts[joint.line];
-			ImplicitJoint& one = implicit.emplace_back(implicitJoint(set, k));
-			ImplicitJoint* const first = place == none ? nullptr : &implicit[place];
-			addModes(one, first, scene.dt, bodies);
-			one.isStiff = isStiff = alsoStiff && (joint.isStiff() || one.isStiff || isFast(one));
-			if (!isStiff && joint.isDamped() && one.isAxial) {
-				if (first) first->axis.others += joint.dampingAt(one.tangent).of(one.axis.frequency());
-				else place = implicit.size() - 1;
-			}
-			const bool acts = isStiff || (joint.isDamped() && !(one.isAxial && first));
-			if (!acts) implicit.pop_back();
-		}
+	std::vector<timber::JointEntry>& joints = engine->jointSet().joints;
+	JointSearch search { *engine, bodies, scene.dt, alsoStiff, implicit,
+		std::vector<size_t>(joints.size(), JointSearch::none) };
+	for (size_t k = 0; k < joints.size(); ++k) {
+		timber::JointEntry& joint = joints[k];
+		const bool isStiff = search.list(k);
 		if (isStiff && !joint.isStiff()) { // its forces act in this step already
 			engine->elastic -= joint.total.energy;
 			joint.total = {};
