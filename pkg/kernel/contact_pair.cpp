@@ -136,27 +136,21 @@ namespace {
 		return { force, stiffness, select(closing > -n, max(none, Number(U + change + rest * force)), none) };
 	}
 
-	/// Energy of a normal spring that has at most the strength [N], as springAfter(): Newton's method from above
-	/// finds the displacement at which it is reached. [J]
-	inline double energyAtStrength(
-	        double U, double F, double K, double n, double overlapLeft, double closing, double q, double strength)
+	/// The same for at most the strength [N]: Newton's method from above finds the displacement at which it is reached.
+	template <class Number>
+	[[gnu::always_inline]] inline SpringAfter<Number> springWithin(const Number& strength, const Number& U,
+	        const Number& F, const Number& K, const Number& n, const Number& overlapLeft, Number closing, double q)
 	{
-		SpringAfter<double> after = springAfter(U, F, K, n, overlapLeft, closing, q);
-		for (int k = 0; k < yieldSteps && closing > 0 && after.force > strength * (1 + yieldTolerance); ++k) {
-			closing = std::max(
-			        0., std::min(closing, overlapLeft) - (after.force - strength) / after.stiffness);
-			after = springAfter(U, F, K, n, overlapLeft, closing, q);
+		const Number none = 0., most = strength * Number(1 + yieldTolerance);
+		SpringAfter<Number> after = springAfter<Number>(U, F, K, n, overlapLeft, closing, q);
+		for (int k = 0; k < yieldSteps; ++k) {
+			const auto exceeds = logicalAnd(closing > none, after.force > most);
+			if (!any(exceeds)) break;
+			const Number less = min(closing, overlapLeft) - (after.force - strength) / after.stiffness;
+			closing = select(exceeds, max(none, less), closing);
+			after = springAfter<Number>(U, F, K, n, overlapLeft, closing, q);
 		}
-		return after.energy;
-	}
-	inline Lanes energyAtStrength(const Lanes& U, const Lanes& F, const Lanes& K, const Lanes& n,
-	        const Lanes& overlapLeft, const Lanes& closing, double q, const Lanes& strength)
-	{
-		Lanes energy;
-		for (int i = 0; i < laneCount; ++i)
-			energy.v[i] = energyAtStrength(
-			        U.v[i], F.v[i], K.v[i], n.v[i], overlapLeft.v[i], closing.v[i], q, strength.v[i]);
-		return energy;
+		return after;
 	}
 
 	/// Energy that a spring has stored after a step, and the energy dissipated in it. stored is negative after sweeps
@@ -212,18 +206,11 @@ namespace {
 			const Number e = record.get(&PointRecord::normalForce), n = record.get(&PointRecord::overlap),
 			             U = record.get(&PointRecord::energy), none = 0.,
 			             closing = Number(-h / 2) * after.dot(axes[0]),
-			             overlapLeft = max(none, Number(Number(pair.overlapLimit) - n)),
-			             limit = strength / Number(h);
-			const SpringAfter<Number> spring
-			        = springAfter<Number>(U, e, stiffness, n, overlapLeft, closing, pair.exponent);
-			const Number law = selectLazily(
-			        spring.force > limit,
-			        [&] {
-				        return energyAtStrength(
-				                U, e, stiffness, n, overlapLeft, closing, pair.exponent, limit);
-			        },
-			        [&] { return spring.energy; });
-			Account<Number> account(record.get(&PointRecord::normalStored), p[0] * mean.dot(axes[0]), law);
+			             overlapLeft = max(none, Number(Number(pair.overlapLimit) - n));
+			const SpringAfter<Number> spring = springWithin<Number>(
+			        strength / Number(h), U, e, stiffness, n, overlapLeft, closing, pair.exponent);
+			Account<Number> account(
+			        record.get(&PointRecord::normalStored), p[0] * mean.dot(axes[0]), spring.energy);
 			record.set(&PointRecord::normalStored, account.stored);
 			// The total force is at the strength, or the spring is while the surfaces close
 			const Number yield = strength * Number(1 - strengthRounding);
