@@ -122,9 +122,11 @@ def precision_text(folder):
         steps = []
         for variant, label in (("default", "implicit contacts"), ("explicit dashpots", "explicit dashpots")):
             exact = largest_exact_step(rows, case, variant)
-            steps.append((f"{exact[0]:g} s in {exact[1]:.1f} s of computing" if exact else "none") + f" with {label}")
+            steps.append((f"{exact[0]:g} s ({exact[1]:.1f})" if exact else "none") + f" with {label}")
         texts.append(f"{case} {', '.join(steps)}")
-    return f"Largest step with errors below {100 * TOLERATED:g} %: {'; '.join(texts)}"
+    return (
+        f"Largest step with errors below {100 * TOLERATED:g} %, in brackets seconds of computing: {'; '.join(texts)}"
+    )
 
 
 def stability_text(folder):
@@ -142,7 +144,8 @@ def balance_text(folder):
     worst = max(abs(float(row["energy gained [-]"])) for row in table(folder, "balance")
                 if float(row["dt [s]"]) == DEFAULT_DT)
     return (
-        f"The energy of three houses in strong shaking at the default step closes within {100 * worst:.1g} % of the input"
+        "The energy of three houses in strong shaking at the default step closes within"
+        f" {100 * worst:.1g} % of the input"
     )
 
 
