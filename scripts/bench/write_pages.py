@@ -105,7 +105,7 @@ def step_text(folder):
     micro = {state: number(rows, "whole step [us]", state=state) for state in (SHAKING, REST)}
     fast = DEFAULT_DT / micro[SHAKING] * 1e6
     return (
-        f"house C2 with 1 m of snow: {micro[SHAKING]:.0f} us in strong shaking, {fast:.1f} times as fast as real time;"
+        f"House C2 with 1 m of snow: {micro[SHAKING]:.0f} us in strong shaking, {fast:.1f} times as fast as real time;"
         f" {micro[REST]:.0f} us at rest"
     )
 
@@ -119,12 +119,14 @@ def precision_text(folder):
     """Largest exact steps of two houses."""
     rows, texts = table(folder, "precision"), []
     for case in ("standing house C", "collapsing house A"):
+        steps = []
         for variant, label in (("default", "implicit contacts"), ("explicit dashpots", "explicit dashpots")):
             exact = largest_exact_step(rows, case, variant)
-            texts.append(
-                f"{case}, {label}: " + (f"{exact[0]:g} s in {exact[1]:.1f} s of computing" if exact else "none")
-            )
-    return f"largest step with errors below {100 * TOLERATED:g} %: {'; '.join(texts)}"
+            steps.append((f"{exact[0]:g} s ({exact[1]:.1f})" if exact else "none") + f" with {label}")
+        texts.append(f"{case} {', '.join(steps)}")
+    return (
+        f"Largest step with errors below {100 * TOLERATED:g} %, in brackets seconds of computing: {'; '.join(texts)}"
+    )
 
 
 def stability_text(folder):
@@ -134,7 +136,7 @@ def stability_text(folder):
         limits.setdefault(row["contacts"].replace("default", "implicit contacts"), []).append(
             float(row["measured [s]"]) / float(row["predicted [s]"])
         )
-    return "stable over predicted step: " + "; ".join(f"{contacts} {min(ratios):.2g} to {max(ratios):.2g}"
+    return "Stable over predicted step: " + "; ".join(f"{contacts} {min(ratios):.2g} to {max(ratios):.2g}"
                                                       for contacts, ratios in limits.items())
 
 
@@ -142,7 +144,8 @@ def balance_text(folder):
     worst = max(abs(float(row["energy gained [-]"])) for row in table(folder, "balance")
                 if float(row["dt [s]"]) == DEFAULT_DT)
     return (
-        f"energy of three houses in strong shaking at the default step: closes within {100 * worst:.1g} % of the input"
+        "The energy of three houses in strong shaking at the default step closes within"
+        f" {100 * worst:.1g} % of the input"
     )
 
 
@@ -188,12 +191,7 @@ def write_performance(folder):
         draw_errors(axis, table(folder, "precision"), case)
     save(figure, folder / "precision.png")
     page = folder / "performance.md"
-    fill(
-        page,
-        "numbers",
-        markdown_table(("file", "result"),
-                       [(f"[{name}.csv]({name}.csv)", text(folder)) for name, text in TEXTS.items()]),
-    )
+    fill(page, "numbers", "\n".join(f"* {text(folder)} ([{name}.csv]({name}.csv))." for name, text in TEXTS.items()))
     fill(page, "runs", run_table(folder))
 
 

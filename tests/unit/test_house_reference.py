@@ -5,14 +5,15 @@ import re
 from pathlib import Path
 
 import pytest
-from timber_houses.house.layout import HOUSE
+from timber_houses.house.layout import HOUSE, node
 from timber_houses.house.schema import (REQUIRED, Choice, Either, Flag, ListOf, MapOf, Number, Pair, Record, Text,
                                         Variants)
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs" / "house_files.md"
 HEADING = re.compile(r"^#+ .*`([^`]*)`$")
-ROW = re.compile(r"^\| `(?:([\w.\[\]]+)\.)?(\w+)` \| (.*?) \| (.*?) \| (.+) \|$")
+ROW = re.compile(r"^\| (`[\w.\[\]]+`(?:, `[\w.\[\]]+`)*)(?: \(([\w, ]+)\))? \| (.*?) \| (.*?) \| (.+) \|$")
+KEY = re.compile(r"`(?:([\w.\[\]]+)\.)?(\w+)`")
 
 
 def tables(field, path=""):
@@ -38,6 +39,8 @@ def tables(field, path=""):
 def value_words(field):
     """Admissible values of a key, as worded on the page."""
     if isinstance(field, Number):
+        if field is node:
+            return "node"
         off = ", false" if field.off else ""
         return f"{'whole, ' if field.whole else ''}{field._range().removeprefix(' in ')}{off}"
     if isinstance(field, Pair):
@@ -45,7 +48,7 @@ def value_words(field):
     if isinstance(field, Either):
         return f"{value_words(field.listed)}, or table"
     if isinstance(field, ListOf):
-        one = ", or one alone" if field.scalar else ""
+        one = ", or one" if field.scalar else ""
         return f"list of {f'{field.length} ' if field.length else ''}({value_words(field.item)}){one}"
     words = {Text: "text", Flag: "true, false", Record: "table", MapOf: "table of names", Variants: "table"}
     return ", ".join(f"`{option}`" for option in field.options) if isinstance(field, Choice) else words[type(field)]
@@ -86,19 +89,25 @@ def forms(path):
     return [path.replace(choice[0], form) for form in choice[0].split(" | ")] if choice else [path]
 
 
+def has_row(path, names):
+    """Whether a row applies to the form of a path. names: of the row's forms, 'hip, gable'; None: all forms."""
+    return names is None or not set(names.split(", ")).isdisjoint(re.findall(r": (\w+)", path))
+
+
 def page_rows():
-    """{path: {key: (value, default)}} of the page; a form has the keys of all headings that name it. A key `a.b` of a
-    table is the key `b` of its table `a`.
+    """{path: {key: (value, default)}} of the page; a form has the keys of all headings that name it, except those of
+    other forms, as `key` (hip). A row may have several keys. A key `a.b` of a table is the key `b` of its table `a`.
     """
     rows, here = {}, []
     for line in PAGE.read_text().splitlines():
         heading, row = HEADING.match(line), ROW.match(line)
         if heading:
             here = forms(heading[1].replace("the file", ""))
-        for path in here if row else ():
-            table = rows.setdefault(f"{path}.{row[1]}".lstrip(".") if row[1] else path, {})
-            assert row[2] not in table, f"{row[2]} stands twice"
-            table[row[2]] = (row[3], row[4])
+        for path in (path for path in here if row and has_row(path, row[2])):
+            for inner, key in KEY.findall(row[1]):
+                table = rows.setdefault(f"{path}.{inner}".lstrip(".") if inner else path, {})
+                assert key not in table, f"{key} stands twice"
+                table[key] = (row[3], row[4])
     return rows
 
 
@@ -110,6 +119,8 @@ def test_table_is_documented_as_it_is(path):
 def test_forms_share_keys():
     assert forms("a {layer: roof, type: hip | flat}") == ["a {layer: roof, type: hip}", "a {layer: roof, type: flat}"]
     assert forms("a") == ["a"]
+    assert has_row("a {layer: roof, type: hip}", "hip, gable") and has_row("a {law: snow}", None)
+    assert not has_row("a {layer: roof, type: flat}", "hip, gable")
     assert stated_in("a {layer: roof, type: hip}") == {"layer", "type"} and stated_in("a {layer: floor}.b[]") == set()
 
 
