@@ -38,7 +38,7 @@ def checked(table, path):
     """A house file's tables with all defaults filled in; raises HouseError."""
     data = HOUSE.check(table, f"{path.name}:1", "")
     if not data["structures"] and not (data["frame"] and data["frame"]["members"]):
-        fail(data.at("structures"), "structures", "a house needs at least one structure, or a frame with members")
+        data.refuse("structures", "a house needs at least one structure, or a frame with members")
     if FRAME in data["structures"] and data["frame"]:
         fail(data["structures"].at(FRAME), "structures", f"'{FRAME}' is the name of the frame; choose another one")
     for name, known, noun, where, path in _references(data):
@@ -46,8 +46,8 @@ def checked(table, path):
             fail(where, path, f"unknown {noun} '{name}', {nearest(name, known)}")
     wood = data["materials"].get("timber")  # of all members that name no material
     if wood is not None and wood["density"] > MAX_WOOD:
-        fail(wood.at("density"), "materials.timber.density", f"must be at most {MAX_WOOD:g} kg/m3 as the density of"
-             f" wood, got {wood['density']:g}; give other materials another name")
+        wood.refuse("density", f"must be at most {MAX_WOOD:g} kg/m3 as the density of wood, got {wood['density']:g};"
+                    " give other materials another name")
     check_friction(data)
     check_joint_types(data["joint_types"])
     check_joint_rules(data)

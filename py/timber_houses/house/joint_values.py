@@ -11,21 +11,20 @@ END_JOINED = ("brace", "column")
 
 def check_joint_types(types):
     """HouseError for a joint type whose keys do not fit its law."""
-    for name, table in types.items():
-        path = f"joint_types.{name}"
+    for table in types.values():
         for key in SLIP_KEYS:
             if table["law"] == "slip" and table[key] is None:
-                fail(table.where, path, f"law slip needs '{key}'")
+                table.refuse(None, f"law slip needs '{key}'")
             if table["law"] == "brittle" and table[key] is not None:
-                fail(table.at(key), path, f"'{key}' belongs to law slip; add 'law: slip' or remove it")
+                fail(table.at(key), table.path, f"'{key}' belongs to law slip; add 'law: slip' or remove it")
         if table["law"] == "brittle":
             continue
         if table["kn"] != table["ks"]:
-            fail(table.at("ks"), f"{path}.ks", f"law slip needs ks = kn = {table['kn']:g} N/m, got {table['ks']:g}")
+            table.refuse("ks", f"law slip needs ks = kn = {table['kn']:g} N/m, got {table['ks']:g}")
         start, first, last = table["strength"] / table["kn"], table["softening_stretch"], table["ultimate_stretch"]
         if not start < first < last:
-            fail(table.at("softening_stretch"), path, f"strength / kn = {start:g} m, softening_stretch {first:g} m and"
-                 f" ultimate_stretch {last:g} m must ascend")
+            fail(table.at("softening_stretch"), table.path, f"strength / kn = {start:g} m, softening_stretch {first:g}"
+                 f" m and ultimate_stretch {last:g} m must ascend")
 
 
 def kinds_of(rule):
@@ -43,23 +42,20 @@ def check_joint_rules(data):
     strength that a yielding joint cannot have, also of a rule for members of the frame that are given by their names.
     """
     named = data["frame"]["joints"] if data["frame"] else ()
-    for path, rule in [*((f"joints.{name}", rule) for name, rule in data["joints"].items()),
-                       *((f"frame.joints[{i}]", rule) for i, rule in enumerate(named, 1))]:
+    for rule in (*data["joints"].values(), *named):
         table = data["joint_types"][rule["type"]]
         most = rule["number"] * rule["share"] * table["kn"] * (table["softening_stretch"] or 0.0)
         if table["law"] == "slip" and rule["strength"] is not None and not rule["strength"] < most:
-            fail(rule.at("strength"), f"{path}.strength", f"must be below number x share x kn x softening_stretch ="
-                 f" {most:g} N with law slip, got {rule['strength']:g}")
+            rule.refuse("strength", f"must be below number x share x kn x softening_stretch = {most:g} N with law slip,"
+                        f" got {rule['strength']:g}")
         if rule["kind"] in WALL_KINDS:
-            fail(rule.at("kind"), f"{path}.kind",
-                 f"'{rule['kind']}' is the kind of the joints of sheathed walls; choose another name")
+            rule.refuse("kind", f"'{rule['kind']}' is the kind of the joints of sheathed walls; choose another name")
     names = {}
     for name, rule in data["joints"].items():
         for a, b in map(sorted, kinds_of(rule)):
             first = names.setdefault((a, b, rule["across"]), name)
             if first != name:
-                fail(rule.where, f"joints.{name}",
-                     f"joins {a} and {b} as joints.{first} does; remove one, with null if it is inherited")
+                rule.refuse(None, f"joins {a} and {b} as joints.{first} does; remove one, with null if it is inherited")
 
 
 def joint_values(data, rule, part=1):

@@ -30,8 +30,8 @@ def find_joints(elements, data, named=None):
     used, structures = {key for *_, key, _ in contacts}, {e.group for e in elements if e.kind != "ground"}
     for name, rule in data["joints"].items():
         if rule["across"] and len(structures) > 1 and name not in used:
-            fail(rule.where, f"joints.{name}", "'across: true' joins no two structures: let their members touch, or"
-                 f" remove the rule ({name}: null)")
+            rule.refuse(None, "'across: true' joins no two structures: let their members touch, or remove the rule"
+                        f" ({name}: null)")
     for pair, rule in named.items():
         if pair not in used:
             _report_apart(elements, pair, rule)

@@ -34,11 +34,11 @@ class Structure:
 
     def __init__(self, name, table, materials, others):
         self.name, self.table, self.materials = name, table, materials
-        local = {axis: _positions(table["grid"][axis], f"structures.{name}.grid.{axis}") for axis in "xy"}
-        origin = _origin(table, local, others, name)
+        local = {axis: _positions(table["grid"][axis]) for axis in "xy"}
+        origin = _origin(table, local, others)
         self.grid = {axis: origin[i] + local[axis] for i, axis in enumerate("xy")}
         self.last = {axis: len(self.grid[axis]) - 1 for axis in "xy"}
-        self.layers = _layers(table["stack"], name)
+        self.layers = _layers(table["stack"])
         self.storeys = {layer.storey: layer for layer in self.layers if layer.kind == "columns"}
         self.plans = {}  # {storey: FloorPlan}
         self.element_count = 0
@@ -117,29 +117,28 @@ def _abut(nodes, other, axis, edge):
     return nodes[axis][edge] == other[axis][1 - edge] and shared > 0
 
 
-def _positions(axis, path):
+def _positions(axis):
     """Grid positions [m] relative to the structure's origin."""
     if axis["positions"] is None:
         return axis["module"] * np.arange((axis["count"] or 1) + 1)
     if axis["count"] is not None:
-        fail(axis.at("count"), f"{path}.count", "has no effect beside positions; remove it")
+        axis.refuse("count", "has no effect beside positions; remove it")
     positions = np.array(axis["positions"])
     if len(positions) < 2 or (np.diff(positions) < MIN_SPACING).any():
-        fail(axis.at("positions"), f"{path}.positions", f"give at least two positions in rising order, {MIN_SPACING:g}"
-             " m or more apart")
+        axis.refuse("positions", f"give at least two positions in rising order, {MIN_SPACING:g} m or more apart")
     return positions
 
 
-def _origin(table, local, others, name):
+def _origin(table, local, others):
     """World position (2,) [m] of the structure's grid origin."""
-    place, path = table["place"], f"structures.{name}.place"
+    place = table["place"]
     if place["origin"] is not None:
         for key in ("side", "align", "gap", "shift"):
             if place[key] != PLACE.fields[key].default:
-                fail(place.at(key), f"{path}.{key}", "belongs to 'beside'; change the origin instead")
+                place.refuse(key, "belongs to 'beside'; change the origin instead")
         return np.array(place["origin"])
     if place["beside"] not in others:
-        fail(place.at("beside"), path, f"no structure '{place['beside']}' before this one; known:"
+        fail(place.at("beside"), place.path, f"no structure '{place['beside']}' before this one; known:"
              f" {', '.join(others) or 'none yet'}")
     low, high = others[place["beside"]].area()
     size = np.array([local[axis][-1] - local[axis][0] for axis in "xy"])
@@ -149,8 +148,8 @@ def _origin(table, local, others, name):
     corner = (low + high - size) / 2
     if place["align"] != "middle":
         if (place["align"] in ("east", "west")) == (out == 0):
-            fail(place.at("align"), f"{path}.align", f"on the {place['side']} side, align"
-                 f" {' or '.join(('north', 'south') if out == 0 else ('east', 'west'))}")
+            place.refuse("align", f"on the {place['side']} side, align"
+                         f" {' or '.join(('north', 'south') if out == 0 else ('east', 'west'))}")
         corner = high - margin - size if place["align"] in ("east", "north") else low + margin
     corner = corner + place["shift"]
     clear = place["gap"] + margin
@@ -158,18 +157,17 @@ def _origin(table, local, others, name):
     return corner - start
 
 
-def _layers(stack, name):
+def _layers(stack):
     """Layers from the ground (z = 0) up; a roof adds no height because no layer lies on it."""
     layers, z, storey = [], 0.0, 0
-    for i, table in enumerate(stack):
+    for table in stack:
         kind = table["layer"]
         storey += kind == "columns"
-        place = table.at("layer"), f"structures.{name}.stack[{i + 1}]"
         if layers and layers[-1].kind == "roof" and kind != "roof":
-            fail(*place, "nothing can stand on a roof; make roofs the last layers")
+            fail(table.at("layer"), table.path, "nothing can stand on a roof; make roofs the last layers")
         top = z + table.get("height", table.get("thickness"))
         if storey > MAX_STOREYS:
-            fail(*place, f"more than {MAX_STOREYS} layers of columns; remove some")
+            fail(table.at("layer"), table.path, f"more than {MAX_STOREYS} layers of columns; remove some")
         layers.append(Layer(table, kind, storey, z, top))
         z = z if kind == "roof" else top
     return layers
