@@ -4,19 +4,18 @@ from collections import Counter
 
 import numpy as np
 
-from .check import check_house
+from .check import check_house, warn_of_missing_joints
 from .damage import apply_damage
 from .description import require_snow_depth
 from .frame import Frame
 from .geometry import box
 from .grid import Grid
 from .joints import find_joints
-from .layout import FRAME
+from .layout import FRAME, OUTWARD
 from .loads import apply_loads
-from .missing_joints import warn_of_missing_joints
+from .members import require_few
 from .model import Element, HouseModel
 from .schema import fail
-from .structure import OUTWARD, require_few
 from .wall_types import has_rated_walls
 
 

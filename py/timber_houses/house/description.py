@@ -6,13 +6,14 @@ from pathlib import Path
 from ..base.input_file import is_file, is_folder, shown
 from ..base.remedies import nearest
 from .errors import HouseError
-from .friction import check_friction
-from .joint_values import check_joint_rules, check_joint_types
+from .joints import check_joint_rules, check_joint_types
 from .layout import FRAME, HOUSE, MAX_SNOW, MAX_WOOD, MIN_SNOW
 from .loader import load_table, shipped_houses, shipped_paths
 from .parser import Table
 from .schema import fail
 from .wall_types import check_wall_types
+
+FRICTION = 0.5  # coefficient of a material whose pair with itself is not in the file, that of the class ElementMat. [-]
 
 
 @dataclass(frozen=True)
@@ -101,3 +102,21 @@ def _references(data):
     for i, pair in enumerate(data["friction"], 1):
         for material in pair["between"]:
             yield material, data["materials"], "material", pair.at("between"), f"friction[{i}]"
+
+
+def own_coefficient(name, law, pairs):
+    """Coefficient [-] of one material: that of its pair with itself; for snow the smallest of all its pairs. law:
+    'timber' or 'snow'; pairs: [(material, material, coefficient)]"""
+    alone = [c for a, b, c in pairs if a == b == name] or [FRICTION]
+    return min(alone + [c for a, b, c in pairs if name in (a, b) and law == "snow"])
+
+
+def check_friction(data):
+    """HouseError for a pair whose coefficient is not the smaller one of its two materials, as YADE has it."""
+    pairs = [(*entry["between"], entry["coefficient"]) for entry in data["friction"]]
+    own = {name: own_coefficient(name, material["law"], pairs) for name, material in data["materials"].items()}
+    for entry, (a, b, wanted) in zip(data["friction"], pairs):
+        if wanted != min(own[a], own[b]):
+            raise HouseError(f"{entry.at('coefficient')}: friction of {a} and {b} is {wanted:g}; it must be"
+                             f" {min(own[a], own[b]):g}, the smaller coefficient of {a} ({own[a]:g}) and {b}"
+                             f" ({own[b]:g}); change the pairs [{a}, {a}] and [{b}, {b}], too")

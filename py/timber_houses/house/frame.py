@@ -8,7 +8,7 @@ from collections import Counter
 import numpy as np
 
 from .bars import LEVEL, Parts, outline
-from .joint_values import END_JOINED
+from .joints import END_JOINED
 from .layout import FRAME
 from .limits import MAX_ELEMENTS
 from .model import Element

@@ -15,10 +15,10 @@ import numpy as np
 
 from ..base.joint_kinds import WALL_BEAM, WALL_COLUMN
 from .errors import HouseError
+from .layout import ACROSS
 from .loads import bay_length
 from .members import column_plan, line_name, nodes_on_line, require_column
 from .model import JointSpec, Sheet, WallCycles
-from .structure import ACROSS
 from .wall_types import cycles, envelope, multiplier, quasi_multiplier, steepest
 
 SHARE = 0.5  # of a wall's shear, between beams and between columns. [-]
