@@ -42,9 +42,9 @@ def checked(table, path):
         data.refuse("structures", "a house needs at least one structure, or a frame with members")
     if FRAME in data["structures"] and data["frame"]:
         fail(data["structures"].at(FRAME), "structures", f"'{FRAME}' is the name of the frame; choose another one")
-    for name, known, noun, where, path in _references(data):
+    for name, known, noun, table, key in _references(data):
         if name not in known:
-            fail(where, path, f"unknown {noun} '{name}', {nearest(name, known)}")
+            table.refuse(key, f"unknown {noun} '{name}', {nearest(name, known)}")
     wood = data["materials"].get("timber")  # of all members that name no material
     if wood is not None and wood["density"] > MAX_WOOD:
         wood.refuse("density", f"must be at most {MAX_WOOD:g} kg/m3 as the density of wood, got {wood['density']:g};"
@@ -77,31 +77,22 @@ def house_path(name):
 
 
 def _references(data):
-    """(name, names that it may be, what it names, file:line, path of its key) of each reference."""
-    users = [(data["ground"], "ground"), (data["snow"], "snow")]
-    for name, structure in data["structures"].items():
-        users.append((structure["braces"], f"structures.{name}.braces"))
-        users += [(layer, f"structures.{name}.stack[{i}]") for i, layer in enumerate(structure["stack"], 1)]
-    frame = data["frame"] or {"members": {}, "plates": {}, "joints": ()}
-    users += [(part, f"frame.{key}.{name}") for key in ("members", "plates") for name, part in frame[key].items()]
-    for table, path in users:
-        yield table["material"], data["materials"], "material", table.at("material"), f"{path}.material"
-    for name, rule in data["joints"].items():
-        yield rule["type"], data["joint_types"], "joint type", rule.at("type"), f"joints.{name}.type"
-    for i, rule in enumerate(frame["joints"], 1):
-        yield rule["type"], data["joint_types"], "joint type", rule.at("type"), f"frame.joints[{i}].type"
-    for name, structure in data["structures"].items():
-        for i, line in enumerate(structure["walls"], 1):
-            for wall in line["type"]:
-                yield wall, data["wall_types"], "wall type", line.at("type"), f"structures.{name}.walls[{i}].type"
-    for i, region in enumerate(data["damage"]["regions"], 1):
+    """(name, names that it may be, what it names, table, its key) of each reference."""
+    structures, frame = data["structures"].values(), data["frame"] or {"members": {}, "plates": {}, "joints": ()}
+    users = [data["ground"], data["snow"]]
+    for structure in structures:
+        users += [structure["braces"], *structure["stack"]]
+    for table in (*users, *frame["members"].values(), *frame["plates"].values()):
+        yield table["material"], data["materials"], "material", table, "material"
+    for rule in (*data["joints"].values(), *frame["joints"]):
+        yield rule["type"], data["joint_types"], "joint type", rule, "type"
+    for line in (line for structure in structures for line in structure["walls"]):
+        for wall in line["type"]:
+            yield wall, data["wall_types"], "wall type", line, "type"
+    for region in data["damage"]["regions"]:
         if region["structure"] is not None:
-            structures = [*data["structures"], *([FRAME] if data["frame"] else [])]
-            yield (region["structure"], structures, "structure", region.at("structure"),
-                   f"damage.regions[{i}].structure")
-    for i, pair in enumerate(data["friction"], 1):
-        for material in pair["between"]:
-            yield material, data["materials"], "material", pair.at("between"), f"friction[{i}]"
+            known = [*data["structures"], *([FRAME] if data["frame"] else [])]
+            yield region["structure"], known, "structure", region, "structure"
 
 
 def own_coefficient(name, law, pairs):
@@ -113,6 +104,9 @@ def own_coefficient(name, law, pairs):
 
 def check_friction(data):
     """HouseError for a pair whose coefficient is not the smaller one of its two materials, as YADE has it."""
+    for entry in data["friction"]:
+        for name in (name for name in entry["between"] if name not in data["materials"]):
+            fail(entry.at("between"), entry.path, f"unknown material '{name}', {nearest(name, data['materials'])}")
     pairs = [(*entry["between"], entry["coefficient"]) for entry in data["friction"]]
     own = {name: own_coefficient(name, material["law"], pairs) for name, material in data["materials"].items()}
     for entry, (a, b, wanted) in zip(data["friction"], pairs):

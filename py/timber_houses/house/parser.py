@@ -201,13 +201,6 @@ class _Writer(yaml.SafeDumper):
 _Writer.add_implicit_resolver(TAG + "float", _EXPONENT, list("-+.0123456789"))
 
 
-def copied(value):
-    """A value whose tables and lists are its own."""
-    if isinstance(value, Table):
-        return Table({key: copied(entry) for key, entry in value.items()}, value.where, value.entries)
-    return Items(map(copied, value), value.where, value.entries) if isinstance(value, Items) else value
-
-
 def plain(value):
     if isinstance(value, dict):
         return {key: plain(entry) for key, entry in value.items()}

@@ -163,7 +163,7 @@ def _of_table(path):
         values = {key: text if key == "house" else parse_value(text, where)
                   for key, text in cells.items() if text and key != "lot"}
         if any(map(str.strip, row)):
-            lots.append((cells["lot"], Table(values, where, dict.fromkeys(values, where))))
+            lots.append((cells["lot"], Table(values, where)))
     return lots
 
 
@@ -184,7 +184,7 @@ def _of_map(path):
     for number, (name, feature, place) in enumerate(zip(names, features, places), 1):
         values = {key: feature["properties"][key] for key in COLUMNS if feature["properties"].get(key) is not None}
         values |= dict(zip("xy", _metres(place, origin)))
-        lots.append((name, Table(values, where := f"{path.name}: feature {number}", dict.fromkeys(values, where))))
+        lots.append((name, Table(values, f"{path.name}: feature {number}")))
     return lots
 
 

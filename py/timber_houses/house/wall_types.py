@@ -6,6 +6,7 @@ import numpy as np
 
 from . import saws
 from .layout import OPENINGS, SAWS_STATES
+from .model import WallCycles
 from .nails import nailed_wall
 from .schema import fail
 
@@ -48,20 +49,6 @@ FRICTION = 0.1
 """Friction force over the largest shear. [-] (SAWS set of a wall of OpenSees' example; docs/theory.md, walls)"""
 RELOAD_SHARE = 0.65  # share of the slack from which walls reload. [-] (likewise)
 RELOAD_TARGET = 1.1  # drift at which reloading meets the envelope, over the largest one so far. [-] (likewise)
-
-
-@dataclass(frozen=True)
-class Cycles:
-    """Of a wall type, per metre of wall; names as those of WallCycles (house/model.py)."""
-
-    friction_force: float  # [N/m]
-    reload_share: float = 0.0
-    reload_target: float = 1.0
-    steepness: float = 1.0  # unloading stiffness over the steepest slope of the envelope
-    pinched_stiffness: float = 0.0  # [N/m per rad]
-    reload_stiffness: float = 0.0  # [N/m per rad]
-    reload_drift: float = 0.0  # [rad]
-    reload_power: float = 0.0
 
 
 def check_wall_types(types):
@@ -177,7 +164,7 @@ def _check_cycles(table):
             table.refuse("friction_force", f"{friction:g} N/m is below {LEAST_FRICTION:g} of the largest shear,"
                          f" {largest:.4g} N/m; kN are 1000 N")
         if table["pinched_share"]:
-            left = largest - cycles(table, level).friction_force
+            left = largest - cycles(table, level)[0].friction_force
             share = left / drift / steepest(points)
             if not table["pinched_share"] < share:
                 table.refuse("pinched_share", "the pinched line must stay below the largest shear: less than"
@@ -213,8 +200,9 @@ def envelope(table, level):
 
 
 def cycles(table, level):
+    """(WallCycles, unloading stiffness over the steepest slope of the envelope [-]) of a wall type."""
     if table["saws"] is not None:
-        return Cycles(**saws.cycles(table["saws"]))
+        return saws.cycles(table["saws"])
     points = envelope(table, level)
     given = {key: default if table[key] is None else table[key]
              for key, default in (("friction_force", FRICTION * max(shear for _, shear in points)),
@@ -222,9 +210,9 @@ def cycles(table, level):
     if table["pinched_share"]:
         given["pinched_stiffness"] = table["pinched_share"] * steepest(points)
     if table["reload_power"] is not None:
-        given |= {"reload_share": 0.0, "reload_stiffness": steepest(points), "reload_drift": table["reload_drift"],
+        given |= {"reload_share": 0.0, "reload_stiffness": steepest(points), "reload_stretch": table["reload_drift"],
                   "reload_power": table["reload_power"]}
-    return Cycles(**given)
+    return WallCycles(**given), 1.0
 
 
 def steepest(points):
