@@ -29,8 +29,8 @@ def _break(joints, structure, region, kind, default_end):
     candidates = [j for j in joints if j.group == structure.name and j.kind == kind and j.storey == storey
                   and side in j.side and j.end == end and not j.broken]
     if not candidates:
-        fail(wanted.at("count"), wanted.path, f"the {side} side of {structure.name} has no such whole joint at the {end}"
-             f" of storey {storey}: sides are those of the outline of its floor")
+        fail(wanted.at("count"), wanted.path, f"the {side} side of {structure.name} has no such whole joint at the"
+             f" {end} of storey {storey}: sides are those of the outline of its floor")
     if wanted["count"] > len(candidates):
         fail(wanted.at("count"), wanted.path, f"{wanted['count']} joints are to be broken, but the {side} wall of"
              f" {structure.name} has {len(candidates)} whole ones at the {end} of storey {storey}; lower the count")

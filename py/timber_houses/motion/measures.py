@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""High-pass; peaks, JMA instrumental intensity, response spectra, Arias intensity, in the customary gal, cm/s and cm."""
+"""High-pass; peaks, JMA instrumental intensity, response spectra, Arias intensity, in the customary gal, cm/s, cm."""
 import math
 from bisect import bisect_right
 from dataclasses import dataclass

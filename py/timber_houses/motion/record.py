@@ -145,8 +145,8 @@ def warn_of_weak_motion(motion, scale=1.0):
 # --- constant part: the zero error of a sensor, or gravity; it acts like a lean or like another weight ----------------
 
 LARGEST_SHARE = 0.02
-"""Largest mean of a component that needs no warning, as a share of its peak; that of recorded motions is below 0.01 % as
-published, below 1 % in parts of a few seconds. [-]"""
+"""Largest mean of a component that needs no warning, as a share of its peak; that of recorded motions is below 0.01 %
+as published, below 1 % in parts of a few seconds. [-]"""
 VISIBLE = 1e-3  # smaller means, as a share of the largest acceleration of all components, are noise. [-]
 ROUNDING = 1e-9  # what is left of a constant part that was removed. [m/s2]
 CONSTANT_AXES = (("N-S", 1, "a lean"), ("E-W", 0, "a lean"), ("up-down", 2, "a change of weight"))
