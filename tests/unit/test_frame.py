@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from timber_houses.base.gravity import weight_of
 from timber_houses.house import HouseError, build_house, changed_house, diagnose, load_house, weigh
-from timber_houses.house.missing_joints import warn_of_missing_joints
+from timber_houses.house.check import warn_of_missing_joints
 
 PORTAL = """\
 extends: frame

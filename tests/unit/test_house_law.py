@@ -6,7 +6,7 @@ import pytest
 import yade.wrapper as yw
 from yade import O
 from timber_houses.base.gravity import GRAVITY
-from timber_houses.house import friction
+from timber_houses.house import description
 from timber_houses.house.errors import HouseError
 from timber_houses.run.identity import identity, made_from
 from timber_houses.run.options import RunOptions
@@ -28,7 +28,7 @@ def built(tmp_path, law):
 
 def test_default_friction():
     """A house file is read without YADE, so the default stands there and in the class."""
-    assert friction.DEFAULT == yw.TimberMat().friction == yw.SnowMat().friction
+    assert description.FRICTION == yw.TimberMat().friction == yw.SnowMat().friction
 
 
 def test_defaults(tmp_path):

@@ -50,53 +50,50 @@ class Parts:
         if name not in self.made:
             self.asked.append(name)
             table = self.tables[name]
-            part = self._plate(name, table) if name in self.plates else self._bar(name, table)
-            self.made[name] = [part.moved(*place) for place in placements(table["repeat"], self.path(name))]
+            part = self._plate(table) if name in self.plates else self._bar(table)
+            self.made[name] = [part.moved(*place) for place in placements(table["repeat"], table.path)]
             self.asked.pop()
         return self.made[name]
 
-    def path(self, name):
-        return f"frame.{'plates' if name in self.plates else 'members'}.{name}"
-
-    def find(self, reference, where, path):
-        """Part of 'NAME', the first copy, or 'NAME.3'; HouseError without one, or where two refer to each other."""
+    def find(self, reference, table, key):
+        """Part of 'NAME', the first copy, or 'NAME.3'; HouseError without one, or where two refer to each other. table,
+        key: of the entry with the reference"""
         name, _, number = reference.partition(".")
         if name not in self.tables:
-            fail(where, path, f"no member '{reference}', {nearest(name, self.tables)[:300]}")
+            table.refuse(key, f"no member '{reference}', {nearest(name, self.tables)[:300]}")
         if name in self.asked:
-            fail(where, path, f"{name} refers back to {self.asked[-1]}; give one of them by points")
+            table.refuse(key, f"{name} refers back to {self.asked[-1]}; give one of them by points")
         copies = self[name]
         if not (number or "1").isdecimal() or not 1 <= int(number or 1) <= len(copies):
-            fail(where, path, f"no member '{reference}'; {name} has {len(copies)} copies: {name}.1, ...")
+            table.refuse(key, f"no member '{reference}'; {name} has {len(copies)} copies: {name}.1, ...")
         return copies[int(number or 1) - 1]
 
     # --- bars ---------------------------------------------------------------------------------------------------------
 
-    def _bar(self, name, table):
-        path = self.path(name)
+    def _bar(self, table):
         if not is_convex(outline(table)):
-            fail(table.at("profile"), f"{path}.profile", "is not a convex polygon; give its corners in order")
-        ends = np.array([self._point(name, table, key) for key in ("from", "to")])
+            table.refuse("profile", "is not a convex polygon; give its corners in order")
+        ends = np.array([self._point(table[key]) for key in ("from", "to")])
         length = float(np.linalg.norm(ends[1] - ends[0]))
         if length < SHORTEST:
-            fail(table.at("to"), f"{path}.to", "lies at its other end; give two points apart")
+            table.refuse("to", "lies at its other end; give two points apart")
         along = (ends[1] - ends[0]) / length
-        planes = sides(outline(table), along, table["roll"], ends[0]) + self._end_planes(name, table, ends, along)
+        planes = sides(outline(table), along, table["roll"], ends[0]) + self._end_planes(table, ends, along)
         try:
             return Part(halfspace_vertices(planes), ends)
         except ValueError as problem:
-            fail(table.where, path, f"no volume is left between its faces ({problem}); check its ends and cuts")
+            table.refuse(None, f"no volume is left between its faces ({problem}); check its ends and cuts")
 
-    def _end_planes(self, name, table, ends, along):
+    def _end_planes(self, table, ends, along):
         """Planes of cuts, and of the square end faces that none of them replaces."""
         planes, replaced = [], set()
         reach, length = float(np.ptp(outline(table), axis=0).max()), (ends[1] - ends[0]) @ along
         for k, key in enumerate(("from", "to")):
             if isinstance(table[key], Table) and table[key]["flush"]:
-                planes.append(self._entered(name, table, key, ends[1 - k], ends[k]))
+                planes.append(self._entered(table, key, ends[1 - k], ends[k]))
                 replaced |= {k} if abs(planes[-1][0] @ along) > OBLIQUE else set()
-        for i, cut in enumerate(table["cuts"], 1):
-            normal, offset = self._cut(name, cut, f"{self.path(name)}.cuts[{i}]", ends.mean(0))
+        for cut in table["cuts"]:
+            normal, offset = self._cut(cut, ends.mean(0))
             planes.append((normal, offset))
             if cut["normal"] is None and abs(normal @ along) > OBLIQUE:
                 crossing = (offset - normal @ ends[0]) / (normal @ along)
@@ -104,51 +101,51 @@ class Parts:
         caps = [(-along, -along @ ends[0]), (along, along @ ends[1])]
         return planes + [cap for k, cap in enumerate(caps) if k not in replaced]
 
-    def _point(self, name, table, key):
+    def _point(self, end):
         """(3,) end of a bar."""
-        end = table[key]
         if not isinstance(end, Table):
             return np.array(end)
-        axis = self._bar_of(end["of"], end.at("of"), f"{self.path(name)}.{key}.of").axis
+        axis = self._bar_of(end["of"], end, "of").axis
         start, far = axis if end["end"] == "from" else axis[::-1]
         length = float(np.linalg.norm(far - start))
         if not -SHORTEST <= end["at"] <= length + SHORTEST:
-            fail(end.at("at"), f"{self.path(name)}.{key}.at", f"{end['at']:g} lies beyond the end of {end['of']}"
-                 f" ({length:.4g} m); give a place on its axis, or an offset")
+            end.refuse("at", f"{end['at']:g} lies beyond the end of {end['of']} ({length:.4g} m); give a place on its"
+                       " axis, or an offset")
         return start + end["at"] * (far - start) / length + end["offset"]
 
-    def _bar_of(self, reference, where, path):
-        part = self.find(reference, where, path)
+    def _bar_of(self, reference, table, key):
+        part = self.find(reference, table, key)
         if part.axis is None:
-            fail(where, path, f"'{reference}' is a plate; name a member")
+            table.refuse(key, f"'{reference}' is a plate; name a member")
         return part
 
-    def _entered(self, name, table, key, start, point):
+    def _entered(self, table, key, start, point):
         """Plane of the face by which the line from the other end of a bar reaches the member at its end."""
         end = table[key]
-        solid = self.find(end["of"], end.at("of"), self.path(name)).solid
+        solid = self.find(end["of"], end, "of").solid
         rates = solid.face_normals @ (point - start)
         gaps = np.array([face.offset - face.normal @ start for face in solid.faces])
         facing = rates < -SAME
         entry = np.where(facing, gaps / np.where(facing, rates, 1.0), -np.inf)
         if entry.max() <= 0:
-            fail(end.at("of"), f"{self.path(name)}.{key}", f"the other end lies within or behind '{end['of']}'; move"
-                 " one of the ends, or add flush: false")
+            fail(end.at("of"), end.path, f"the other end lies within or behind '{end['of']}'; move one of the ends, or"
+                 " add flush: false")
         face = solid.faces[int(entry.argmax())]
         return -face.normal, -face.offset
 
-    def _cut(self, name, cut, path, middle):
+    def _cut(self, cut, middle):
         """Plane of a cut. middle: of the bar's axis, which remains unless the cut has a normal"""
         if cut["normal"] is not None or cut["point"] is not None:
             if None in (cut["normal"], cut["point"]) or not np.linalg.norm(cut["normal"]):
-                fail(cut.where, path, "a cut by a plane needs 'point' and a 'normal' that is not zero")
+                cut.refuse(None, "a cut by a plane needs 'point' and a 'normal' that is not zero")
             normal = cut["normal"] / np.linalg.norm(cut["normal"])
             return normal, normal @ cut["point"]
         if cut["by"] is not None:
-            faces = self.find(cut["by"], cut.at("by"), f"{path}.by").solid.faces
+            faces = self.find(cut["by"], cut, "by").solid.faces
             face = max(faces, key=lambda face: face.normal @ middle - face.offset)
             if face.normal @ middle < face.offset:
-                fail(cut.at("by"), path, f"the middle of {name} lies within '{cut['by']}'; move one of them")
+                fail(cut.at("by"), cut.path, f"the middle of {self.asked[-1]} lies within '{cut['by']}'; move one of"
+                     " them")
             return -face.normal, -face.offset
         axis = next(axis for axis in "xyz" if cut[axis] is not None)
         sign = 1.0 if cut[axis] >= middle["xyz".index(axis)] else -1.0
@@ -156,16 +153,15 @@ class Parts:
 
     # --- plates -------------------------------------------------------------------------------------------------------
 
-    def _plate(self, name, table):
-        path = self.path(name)
+    def _plate(self, table):
         if table["corners"] and table["overhang"]:
-            fail(table.at("overhang"), f"{path}.overhang", "belongs to 'over'; change the corners instead")
-        corners = self._covering(table, path) if table["over"] else np.array(table["corners"])
+            table.refuse("overhang", "belongs to 'over'; change the corners instead")
+        corners = self._covering(table) if table["over"] else np.array(table["corners"])
         _, _, axes = np.linalg.svd(corners - corners.mean(0), full_matrices=False)
         normal, off = axes[2], (corners - corners.mean(0)) @ axes[2]
         if np.abs(off).max() > WARPED or np.linalg.matrix_rank(corners - corners[0], 1e-3) < 2:
-            fail(table.at("corners"), f"{path}.corners", "do not span a plane (off by"
-                 f" {1e3 * np.abs(off).max():.3g} mm, at most {1e3 * WARPED:g}); correct them")
+            table.refuse("corners", f"do not span a plane (off by {1e3 * np.abs(off).max():.3g} mm, at most"
+                         f" {1e3 * WARPED:g}); correct them")
         corners = corners - off[:, None] * normal
         turns = cross(corners - corners[0], np.roll(corners, -1, 0) - corners[0]).sum(0)
         through = table["thickness"] * turns / np.linalg.norm(turns)
@@ -173,16 +169,15 @@ class Parts:
             through = table["thickness"] / abs(normal @ LEVEL) * LEVEL
         return Part(np.vstack([corners, corners + through]), None, corners + through)
 
-    def _covering(self, table, path):
+    def _covering(self, table):
         """(4, 3) corners of a plate on the upper faces of two bars, from the outer edge of one to that of the other."""
-        bars = [self._bar_of(name, table.at("over"), f"{path}.over") for name in table["over"]]
+        bars = [self._bar_of(name, table, "over") for name in table["over"]]
         alongs = [(bar.axis[1] - bar.axis[0]) / np.linalg.norm(bar.axis[1] - bar.axis[0]) for bar in bars]
         first, last = (max((face for face in bar.solid.faces if abs(face.normal @ along) < OBLIQUE),
                            key=lambda face: face.normal[2]) for bar, along in zip(bars, alongs))
         along, points = alongs[0], np.vstack([first.points, last.points])
         if np.abs(points @ first.normal - first.offset).max() > WARPED:
-            fail(table.at("over"), f"{path}.over", "the upper faces of the two members are not in one plane; give"
-                 " corners")
+            table.refuse("over", "the upper faces of the two members are not in one plane; give corners")
         across = cross(first.normal, along)
         u, v = points @ along, points @ across
         low, high = v.min() - table["overhang"], v.max() + table["overhang"]

@@ -4,9 +4,10 @@ them, 'main.brace1.EW.y0.3-4', 'main.wall1.EW.y0.3-4.plywood'; and those that ca
 import re
 from typing import NamedTuple
 
-from .members import DIRECTION, column_plan, nodes_on_line
+from .grid import Grid
+from .layout import ACROSS
+from .members import DIRECTION, column_plan, in_storey, nodes_on_line
 from .schema import NAME
-from .structure import ACROSS, Structure, in_storey
 
 _NODE = r"(\d{1,4}(?:\.\d{1,6})?)"
 _BAY = re.compile(rf"({NAME})\.(brace|wall)(\d{{1,2}})\.(EW\.y|NS\.x){_NODE}\.{_NODE}-{_NODE}(?:\.({NAME}))?")
@@ -70,7 +71,7 @@ def free_wall_bays(description, kind):
 def _storeys(description):
     structures = {}
     for name, table in description.data["structures"].items():
-        structures[name] = Structure(name, table, description.data["materials"], structures)
+        structures[name] = Grid(name, table, description.data["materials"], structures)
         for storey in structures[name].storeys:
             yield structures[name], storey
 

@@ -4,19 +4,18 @@ from collections import Counter
 
 import numpy as np
 
-from .check import check_house
+from .check import check_house, warn_of_missing_joints
 from .damage import apply_damage
 from .description import require_snow_depth
 from .frame import Frame
 from .geometry import box
 from .grid import Grid
 from .joints import find_joints
-from .layout import FRAME
+from .layout import FRAME, OUTWARD
 from .loads import apply_loads
-from .missing_joints import warn_of_missing_joints
+from .members import require_few
 from .model import Element, HouseModel
 from .schema import fail
-from .structure import OUTWARD, require_few
 from .wall_types import has_rated_walls
 
 
@@ -59,10 +58,10 @@ def _structures(data):
         structure.require_storeys()
     if data["frame"] is not None:
         structures[FRAME] = Frame(data["frame"], data["materials"])
-    name, main = next(iter(structures.items()))
+    main = next(iter(structures.values()))
     if not main.levels:
-        fail(main.table.where, f"structures.{name}", "the first structure needs a layer of columns, as its storey"
-             " drifts are reported; put a structure with columns first")
+        main.table.refuse(None, "the first structure needs a layer of columns, as its storey drifts are reported; put a"
+                          " structure with columns first")
     return structures
 
 
@@ -91,8 +90,7 @@ def _ground(data, structures):
     half = ground["size"] / 2
     reach = max(np.abs(np.array(structure.area()) - centre).max() for structure in structures.values())
     if reach > half:
-        fail(ground.at("size"), "ground.size", f"{ground['size']:g} m is smaller than the house; give at least"
-             f" {2 * reach:.3g} m")
+        ground.refuse("size", f"{ground['size']:g} m is smaller than the house; give at least {2 * reach:.3g} m")
     vertices = box([*(centre - half), -ground["thickness"]], [*(centre + half), 0.0])
     material = ground["material"]
     return Element("ground", "ground", vertices, material, data["materials"][material]["density"], True,

@@ -6,13 +6,14 @@ from pathlib import Path
 from ..base.input_file import is_file, is_folder, shown
 from ..base.remedies import nearest
 from .errors import HouseError
-from .friction import check_friction
-from .joint_values import check_joint_rules, check_joint_types
+from .joints import check_joint_rules, check_joint_types
 from .layout import FRAME, HOUSE, MAX_SNOW, MAX_WOOD, MIN_SNOW
 from .loader import load_table, shipped_houses, shipped_paths
 from .parser import Table
 from .schema import fail
 from .wall_types import check_wall_types
+
+FRICTION = 0.5  # coefficient of a material whose pair with itself is not in the file, that of the class ElementMat. [-]
 
 
 @dataclass(frozen=True)
@@ -38,16 +39,16 @@ def checked(table, path):
     """A house file's tables with all defaults filled in; raises HouseError."""
     data = HOUSE.check(table, f"{path.name}:1", "")
     if not data["structures"] and not (data["frame"] and data["frame"]["members"]):
-        fail(data.at("structures"), "structures", "a house needs at least one structure, or a frame with members")
+        data.refuse("structures", "a house needs at least one structure, or a frame with members")
     if FRAME in data["structures"] and data["frame"]:
         fail(data["structures"].at(FRAME), "structures", f"'{FRAME}' is the name of the frame; choose another one")
-    for name, known, noun, where, path in _references(data):
+    for name, known, noun, table, key in _references(data):
         if name not in known:
-            fail(where, path, f"unknown {noun} '{name}', {nearest(name, known)}")
+            table.refuse(key, f"unknown {noun} '{name}', {nearest(name, known)}")
     wood = data["materials"].get("timber")  # of all members that name no material
     if wood is not None and wood["density"] > MAX_WOOD:
-        fail(wood.at("density"), "materials.timber.density", f"must be at most {MAX_WOOD:g} kg/m3 as the density of"
-             f" wood, got {wood['density']:g}; give other materials another name")
+        wood.refuse("density", f"must be at most {MAX_WOOD:g} kg/m3 as the density of wood, got {wood['density']:g};"
+                    " give other materials another name")
     check_friction(data)
     check_joint_types(data["joint_types"])
     check_joint_rules(data)
@@ -76,28 +77,40 @@ def house_path(name):
 
 
 def _references(data):
-    """(name, names that it may be, what it names, file:line, path of its key) of each reference."""
-    users = [(data["ground"], "ground"), (data["snow"], "snow")]
-    for name, structure in data["structures"].items():
-        users.append((structure["braces"], f"structures.{name}.braces"))
-        users += [(layer, f"structures.{name}.stack[{i}]") for i, layer in enumerate(structure["stack"], 1)]
-    frame = data["frame"] or {"members": {}, "plates": {}, "joints": ()}
-    users += [(part, f"frame.{key}.{name}") for key in ("members", "plates") for name, part in frame[key].items()]
-    for table, path in users:
-        yield table["material"], data["materials"], "material", table.at("material"), f"{path}.material"
-    for name, rule in data["joints"].items():
-        yield rule["type"], data["joint_types"], "joint type", rule.at("type"), f"joints.{name}.type"
-    for i, rule in enumerate(frame["joints"], 1):
-        yield rule["type"], data["joint_types"], "joint type", rule.at("type"), f"frame.joints[{i}].type"
-    for name, structure in data["structures"].items():
-        for i, line in enumerate(structure["walls"], 1):
-            for wall in line["type"]:
-                yield wall, data["wall_types"], "wall type", line.at("type"), f"structures.{name}.walls[{i}].type"
-    for i, region in enumerate(data["damage"]["regions"], 1):
+    """(name, names that it may be, what it names, table, its key) of each reference."""
+    structures, frame = data["structures"].values(), data["frame"] or {"members": {}, "plates": {}, "joints": ()}
+    users = [data["ground"], data["snow"]]
+    for structure in structures:
+        users += [structure["braces"], *structure["stack"]]
+    for table in (*users, *frame["members"].values(), *frame["plates"].values()):
+        yield table["material"], data["materials"], "material", table, "material"
+    for rule in (*data["joints"].values(), *frame["joints"]):
+        yield rule["type"], data["joint_types"], "joint type", rule, "type"
+    for line in (line for structure in structures for line in structure["walls"]):
+        for wall in line["type"]:
+            yield wall, data["wall_types"], "wall type", line, "type"
+    for region in data["damage"]["regions"]:
         if region["structure"] is not None:
-            structures = [*data["structures"], *([FRAME] if data["frame"] else [])]
-            yield (region["structure"], structures, "structure", region.at("structure"),
-                   f"damage.regions[{i}].structure")
-    for i, pair in enumerate(data["friction"], 1):
-        for material in pair["between"]:
-            yield material, data["materials"], "material", pair.at("between"), f"friction[{i}]"
+            known = [*data["structures"], *([FRAME] if data["frame"] else [])]
+            yield region["structure"], known, "structure", region, "structure"
+
+
+def own_coefficient(name, law, pairs):
+    """Coefficient [-] of one material: that of its pair with itself; for snow the smallest of all its pairs. law:
+    'timber' or 'snow'; pairs: [(material, material, coefficient)]"""
+    alone = [c for a, b, c in pairs if a == b == name] or [FRICTION]
+    return min(alone + [c for a, b, c in pairs if name in (a, b) and law == "snow"])
+
+
+def check_friction(data):
+    """HouseError for a pair whose coefficient is not the smaller one of its two materials, as YADE has it."""
+    for entry in data["friction"]:
+        for name in (name for name in entry["between"] if name not in data["materials"]):
+            fail(entry.at("between"), entry.path, f"unknown material '{name}', {nearest(name, data['materials'])}")
+    pairs = [(*entry["between"], entry["coefficient"]) for entry in data["friction"]]
+    own = {name: own_coefficient(name, material["law"], pairs) for name, material in data["materials"].items()}
+    for entry, (a, b, wanted) in zip(data["friction"], pairs):
+        if wanted != min(own[a], own[b]):
+            raise HouseError(f"{entry.at('coefficient')}: friction of {a} and {b} is {wanted:g}; it must be"
+                             f" {min(own[a], own[b]):g}, the smaller coefficient of {a} ({own[a]:g}) and {b}"
+                             f" ({own[b]:g}); change the pairs [{a}, {a}] and [{b}, {b}], too")

@@ -8,12 +8,11 @@ from collections import Counter
 import numpy as np
 
 from .bars import LEVEL, Parts, outline
-from .joint_values import END_JOINED
+from .joints import END_JOINED
 from .layout import FRAME
 from .limits import MAX_ELEMENTS
 from .model import Element
 from .plan import floor_plan
-from .schema import fail
 
 STEP = 0.5  # least distance of levels, and of columns' feet that do not stand on one level. [m]
 SLABS = ("floor", "roof")
@@ -29,14 +28,13 @@ class Frame:
         self.parts = Parts(table["members"], table["plates"])
         twice = table["members"].keys() & table["plates"].keys()
         if twice:
-            fail(table["plates"].at(min(twice)), f"frame.plates.{min(twice)}", "a member has this name; choose another"
-                 " one")
+            table["plates"].refuse(min(twice), "a member has this name; choose another one")
         self.elements, self.tops = [], {}
         for name, entry in self.parts.tables.items():
             self._add(name, entry)
-        for i, rule in enumerate(table["joints"], 1):
+        for rule in table["joints"]:
             for name in rule["between"]:
-                self.parts.find(name, rule.at("between"), f"frame.joints[{i}].between")
+                self.parts.find(name, rule, "between")
         self.named = {frozenset(f"{FRAME}.{name}" for name in rule["between"]): rule for rule in table["joints"]}
         self.levels = self._given_levels() if table["storeys"] else self._found_levels()
         feet = [foot for foot, _ in self.levels.values()]
@@ -67,7 +65,7 @@ class Frame:
     def _add(self, name, entry):
         copies, is_plate = self.parts[name], name in self.table["plates"]
         if len(self.elements) + len(copies) > MAX_ELEMENTS:
-            fail(entry.where, self.parts.path(name), f"more than {MAX_ELEMENTS} elements; make the frame smaller")
+            entry.refuse(None, f"more than {MAX_ELEMENTS} elements; make the frame smaller")
         section = () if is_plate else tuple(np.ptp(outline(entry), axis=0).tolist())
         for number, part in enumerate(copies, 1):
             label = f"{name}.{number}" if len(copies) > 1 else name
@@ -86,8 +84,7 @@ class Frame:
         storeys = self.table["storeys"]
         heights = [z for storey in storeys for z in storey]
         if any(low + STEP > high for low, high in storeys) or heights != sorted(heights):
-            fail(self.table.at("storeys"), "frame.storeys", f"give the feet and heads of storeys from below, {STEP:g} m"
-                 " or more apart")
+            self.table.refuse("storeys", f"give the feet and heads of storeys from below, {STEP:g} m or more apart")
         return dict(enumerate(map(tuple, storeys), 1))
 
     def _found_levels(self):
@@ -119,8 +116,8 @@ class Frame:
         there = Counter(e.storey for e in self.elements if e.kind not in END_JOINED and not e.fixed)
         for storey, (foot, head) in self.levels.items():
             if not there[storey]:
-                fail(self.table.at("storeys"), "frame.storeys", "no beam, rafter, floor or roof near the head of"
-                     f" storey {storey} (z {foot:.2f} to {head:.2f} m), whose drift is reported; give other levels")
+                self.table.refuse("storeys", f"no beam, rafter, floor or roof near the head of storey {storey}"
+                                  f" (z {foot:.2f} to {head:.2f} m), whose drift is reported; give other levels")
 
     def _plan(self, storey):
         columns = {tuple(np.round(e.solid.centroid[:2], 6).tolist()): e.name for e in self.elements

@@ -4,6 +4,10 @@ from .limits import MAX_ELEMENTS, MAX_LINES, MAX_NAME, MAX_PAIRS
 from .schema import REQUIRED, Choice, Either, Flag, ListOf, MapOf, Number, Pair, Record, Text, Variants
 
 SIDES = ("north", "south", "east", "west")
+ACROSS = {"x": "y", "y": "x"}
+ENDS = {"x": ("west", "east"), "y": ("south", "north")}
+"""Sides of a house at the lower and at the higher end of an axis."""
+OUTWARD = {"west": (-1, 0), "east": (1, 0), "south": (0, -1), "north": (0, 1)}  # horizontal unit vectors
 MEMBERS = ("foundation", "sill", "column", "beam", "rafter", "floor", "brace", "roof")
 KINDS = (*MEMBERS, "snow", "ground")
 FRAME = "frame"  # key of the frame, and its name among the structures

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """House files -> tables. `extends` merges a file into the one that it extends: a file beside it or a shipped one."""
 import warnings
+from copy import deepcopy
 from functools import lru_cache
 from pathlib import Path
 
@@ -8,7 +9,7 @@ from ..base.input_file import is_file, read_bytes, shown
 from . import btlx
 from .errors import HouseError
 from .limits import MAX_FILE_SIZE, MAX_FILES, MAX_NODES
-from .parser import Items, Table, copied, house_text, parse_table, plain
+from .parser import Items, Table, house_text, parse_table, plain
 
 COMMON = ("base", "paper", "plated", "frame", "cad")
 """Shipped files that houses extend: materials and joints; frame of the paper's houses; joints with metal plates; joints
@@ -26,7 +27,7 @@ def load_table(path):
     for file, change in reversed(files):
         table = merge(table, change, quiet=file.parent == SHIPPED)
     table.pop("extends", None)
-    return copied(table)
+    return deepcopy(table)
 
 
 def house_files(path):

@@ -6,8 +6,8 @@ import numpy as np
 
 from ..base.gravity import mass_of
 from .geometry import polygon_area
+from .layout import OUTWARD
 from .plan import ROUNDING, outer_bays
-from .structure import OUTWARD
 
 
 def apply_loads(elements, structures, loads):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A built house: elements (convex polyhedra), joints (spring points), and counts of both."""
 from collections import Counter
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -62,7 +62,8 @@ class Element:
 
 @dataclass(frozen=True)
 class WallCycles:
-    """Law 'wall' of a spring: its cycles (docs/theory.md, section 4)."""
+    """Law 'wall' of a spring: its cycles (docs/theory.md, section 4). Of a wall type: of a wall 1 m long whose stretch
+    is its drift [rad]."""
 
     friction_force: float  # [N] at zero stretch after yielding
     reload_target: float = 1.0  # stretch at which reloading meets the envelope, over the largest so far
@@ -71,6 +72,12 @@ class WallCycles:
     reload_stiffness: float = 0.0  # [N/m] k0: stiffness of reloading k0 (reload_stretch / target)^reload_power
     reload_stretch: float = 0.0  # [m]
     reload_power: float = 0.0
+
+    def scaled(self, lever, part):
+        """Of a spring with the stretch `lever` times the drift [m] and the force `part` times the shear [m]."""
+        rate = part / lever
+        return replace(self, friction_force=part * self.friction_force, pinched_stiffness=rate * self.pinched_stiffness,
+                       reload_stiffness=rate * self.reload_stiffness, reload_stretch=lever * self.reload_stretch)
 
 
 @dataclass(frozen=True)

@@ -111,14 +111,9 @@ def _fill(data, text, where):
                          f" {', '.join(data['structures'])}")
     table, place = data["structures"][bay.structure], {"along": bay.along, "at": bay.at, "storeys": bay.storey}
     if bay.type:
-        _append(table.setdefault("walls", Items((), where)),
-                {**place, "from": bay.start, "to": bay.end, "type": bay.type}, where)
+        lines = table.setdefault("walls", Items((), where))
+        lines.append(Table({**place, "from": bay.start, "to": bay.end, "type": bay.type}, where))
     else:
-        runs = Items([Items([bay.start, bay.end], where, [where] * 2)], where, [where])
-        braces = table.setdefault("braces", Table(where=where))
-        _append(braces.setdefault("lines", Items((), where)), {**place, "runs": runs}, where)
-
-
-def _append(lines, line, where):
-    lines.append(Table(line, where, dict.fromkeys(line, where)))
+        lines = table.setdefault("braces", Table(where=where)).setdefault("lines", Items((), where))
+        lines.append(Table({**place, "runs": Items([Items([bay.start, bay.end], where)], where)}, where))
     lines.entries.append(where)

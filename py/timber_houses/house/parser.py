@@ -14,16 +14,21 @@ _EXPONENT = re.compile(r"^[-+]?(\d+(\.\d*)?|\.\d+)[eE][-+]?\d+$")
 
 
 class Table(dict):
-    """A mapping with `where` ("file:line") for itself and `at(key)` for each of its entries."""
+    """A mapping with `where` ("file:line") for itself and `at(key)` for each of its entries; once checked with `path`,
+    that of its key from the house on: 'structures.main.braces'."""
 
-    def __init__(self, items=(), where="", entries=None):
+    def __init__(self, items=(), where="", entries=None, path=""):
         super().__init__(items)
-        self.where = where
+        self.where, self.path = where, path
         self.entries = dict(entries or {})
 
     def at(self, key):
         """"file:line" of entry `key`, or of the table when the entry is a default."""
         return self.entries.get(key, self.where)
+
+    def refuse(self, key, problem):
+        """Raise HouseError for the value of an entry, or None: for the table."""
+        raise HouseError(f"{self.at(key)}: {self.path if key is None else f'{self.path}.{key}'.lstrip('.')}: {problem}")
 
 
 class Items(list):
@@ -194,13 +199,6 @@ class _Writer(yaml.SafeDumper):
 
 
 _Writer.add_implicit_resolver(TAG + "float", _EXPONENT, list("-+.0123456789"))
-
-
-def copied(value):
-    """A value whose tables and lists are its own."""
-    if isinstance(value, Table):
-        return Table({key: copied(entry) for key, entry in value.items()}, value.where, value.entries)
-    return Items(map(copied, value), value.where, value.entries) if isinstance(value, Items) else value
 
 
 def plain(value):

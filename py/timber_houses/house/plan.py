@@ -8,7 +8,7 @@ from itertools import product
 
 import numpy as np
 
-from .structure import ENDS
+from .layout import ENDS
 
 ROUNDING = 1e-6  # of positions. [m]
 

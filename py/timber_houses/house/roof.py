@@ -16,7 +16,7 @@ import numpy as np
 
 from .errors import HouseError
 from .geometry import Polyhedron, box
-from .structure import ACROSS, ENDS, OUTWARD
+from .layout import ACROSS, ENDS, OUTWARD
 
 SEAT = 0.05  # least reach of the soffit beyond the grid line: about the inner half of a wall plate. [m]
 SPACING = 0.91  # of the tie beams of a gable roof along its ridge and of the posts of a mono-pitch roof, at most. [m]

@@ -5,6 +5,8 @@ The backbone (F0 + R1 S0 d) (1 - exp(-S0 d / F0)) up to DU, then a line of slope
 they lie at equal steps of exp(-x / 2), by which the lines between them miss the curve by the same force everywhere."""
 import math
 
+from .model import WallCycles
+
 POINTS = 256  # up to DU: the lines miss the curve by at most F0 / 65536
 
 
@@ -36,10 +38,9 @@ def envelope(table):
 
 
 def cycles(table):
-    """Entries of Cycles (wall_types.py)."""
+    """As `wall_types.cycles`."""
     rate = table["S0"] * table["height"] / table["length"]
     first = envelope(table)[0]
-    return {"friction_force": table["FI"] / table["length"], "reload_target": table["beta"],
-            "steepness": table["R3"] * rate / (first[1] / first[0]), "pinched_stiffness": table["R4"] * rate,
-            "reload_stiffness": rate, "reload_drift": table["F0"] / table["S0"] / table["height"],
-            "reload_power": table["alpha"]}
+    return (WallCycles(table["FI"] / table["length"], table["beta"], pinched_stiffness=table["R4"] * rate,
+                       reload_stiffness=rate, reload_stretch=table["F0"] / table["S0"] / table["height"],
+                       reload_power=table["alpha"]), table["R3"] * rate / (first[1] / first[0]))

@@ -187,7 +187,7 @@ class MapOf:
                 fail(value.at(key), name,
                      f"{shown(key)} is not a valid name; use at most {MAX_NAME} letters, digits, _ and -")
         checked = {k: self.item.check(v, value.at(k), f"{name}.{k}" if name else k) for k, v in value.items()}
-        return Table(checked, value.where, value.entries)
+        return Table(checked, value.where, value.entries, name)
 
 
 @dataclass(frozen=True)
@@ -203,7 +203,7 @@ class Record:
             fail(where, name or "house", f"expected a table with {', '.join(self.fields)}, got {shown(value)}")
         self._check_keys(value, name)
         checked = {key: _field(field, key, value, name) for key, field in self.fields.items()}
-        return Table(checked, where, value.entries)
+        return Table(checked, where, value.entries, name)
 
     def _check_keys(self, value, name):
         for key in value:

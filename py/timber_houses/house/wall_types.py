@@ -6,6 +6,7 @@ import numpy as np
 
 from . import saws
 from .layout import OPENINGS, SAWS_STATES
+from .model import WallCycles
 from .nails import nailed_wall
 from .schema import fail
 
@@ -50,35 +51,20 @@ RELOAD_SHARE = 0.65  # share of the slack from which walls reload. [-] (likewise
 RELOAD_TARGET = 1.1  # drift at which reloading meets the envelope, over the largest one so far. [-] (likewise)
 
 
-@dataclass(frozen=True)
-class Cycles:
-    """Of a wall type, per metre of wall; names as those of WallCycles (house/model.py)."""
-
-    friction_force: float  # [N/m]
-    reload_share: float = 0.0
-    reload_target: float = 1.0
-    steepness: float = 1.0  # unloading stiffness over the steepest slope of the envelope
-    pinched_stiffness: float = 0.0  # [N/m per rad]
-    reload_stiffness: float = 0.0  # [N/m per rad]
-    reload_drift: float = 0.0  # [rad]
-    reload_power: float = 0.0
-
-
 def check_wall_types(types):
     """HouseError for none or several descriptions of a type's shear, and for points or drifts that do not ascend."""
     for name, table in types.items():
-        path = f"wall_types.{name}"
         if name in OPENINGS:
-            fail(table.where, path, "the name of an opening; choose another one")
+            table.refuse(None, "the name of an opening; choose another one")
         forms = [key for key in FORMS if table[key] is not None]
         if len(forms) > 1:
-            fail(table.at(forms[1]), path, f"give one of {', '.join(FORMS)}; got {' and '.join(forms)}")
+            fail(table.at(forms[1]), table.path, f"give one of {', '.join(FORMS)}; got {' and '.join(forms)}")
         if forms:
-            _refuse(table, path, ("strength", "stiffness"), forms[0])
-            _CHECKS[forms[0]](table, path)
+            _refuse(table, ("strength", "stiffness"), forms[0])
+            _CHECKS[forms[0]](table)
         else:
-            _check_rated(table, path)
-        _check_cycles(table, path)
+            _check_rated(table)
+        _check_cycles(table)
 
 
 def _points(table):
@@ -87,104 +73,102 @@ def _points(table):
     return points[1:] if points[:1] == [(0, 0)] else points
 
 
-def _refuse(table, path, keys, form):
+def _refuse(table, keys, form):
     for key in keys:
         if table[key] is not None:
-            fail(table.at(key), path, f"'{key}' does not go with {form}, from which it follows; remove one of them")
+            fail(table.at(key), table.path,
+                 f"'{key}' does not go with {form}, from which it follows; remove one of them")
 
 
-def _check_rated(table, path):
+def _check_rated(table):
     for key in ("strength", "stiffness"):
         if not table["multiplier"] and table[key] is None:
-            fail(table.where, path, f"give multiplier or {key}, or envelope, or nails, or saws")
+            table.refuse(None, f"give multiplier or {key}, or envelope, or nails, or saws")
     for level in LEVELS:
         points = envelope(table, level)
         drifts = [drift for drift, _ in points]
         if drifts != sorted(set(drifts)):
             ends = f"softening_drift {drifts[-2]:g} and ultimate_drift {drifts[-1]:g} must ascend"
-            fail(table.at("softening_drift"), path,
+            fail(table.at("softening_drift"), table.path,
                  f"strength / stiffness = {drifts[0]:.3g}, {ends}" if len(points) > 2 else ends)
 
 
-def _check_envelope(table, path):
-    _refuse(table, path, ("softening_drift",), "envelope")
-    points, where = _points(table), table.at("envelope")
+def _check_envelope(table):
+    _refuse(table, ("softening_drift",), "envelope")
+    points = _points(table)
     drifts = [drift for drift, _ in points]
     if not points or drifts[0] <= 0:
-        fail(where, f"{path}.envelope", "needs points [drift, shear] with drifts > 0; the origin may be left out")
+        table.refuse("envelope", "needs points [drift, shear] with drifts > 0; the origin may be left out")
     if drifts != sorted(set(drifts)):
-        fail(where, f"{path}.envelope", f"the drifts must ascend, got {', '.join(f'{drift:.4g}' for drift in drifts)}")
+        table.refuse("envelope", f"the drifts must ascend, got {', '.join(f'{drift:.4g}' for drift in drifts)}")
     if any(shear == 0 for _, shear in points[:-1]):
-        fail(where, f"{path}.envelope", "only the last point may have no shear")
+        table.refuse("envelope", "only the last point may have no shear")
     largest = max(shear for _, shear in points)
     if largest < LEAST_SHEAR:
-        fail(where, f"{path}.envelope",
-             f"the largest shear is {largest:g} N per m of wall, at least {LEAST_SHEAR:g}; kN are 1000 N")
+        table.refuse("envelope", f"the largest shear is {largest:g} N per m of wall, at least {LEAST_SHEAR:g}; kN are"
+                     " 1000 N")
     if table["ultimate_drift"] is None and points[-1][1] == largest:
-        fail(where, f"{path}.envelope", "the last point has the largest shear; add points beyond it, or ultimate_drift,"
-             " at which there is no shear left")
+        table.refuse("envelope", "the last point has the largest shear; add points beyond it, or ultimate_drift, at"
+                     " which there is no shear left")
     if points[-1][1] == 0 and table["ultimate_drift"] is not None:
-        fail(table.at("ultimate_drift"), f"{path}.ultimate_drift",
-             "the last point of envelope has no shear already; remove one of them")
-    _check_end(table, path, drifts[-1], "the last drift of envelope")
+        table.refuse("ultimate_drift", "the last point of envelope has no shear already; remove one of them")
+    _check_end(table, drifts[-1], "the last drift of envelope")
 
 
-def _check_nails(table, path):
-    _refuse(table, path, ("softening_drift",), "nails")
-    nails, where = table["nails"], table["nails"].where
+def _check_nails(table):
+    _refuse(table, ("softening_drift",), "nails")
+    nails = table["nails"]
     board, slip = nails["board"], nails["Pv"] / nails["k"]
     if not nails["du"] > slip:
-        fail(nails.at("du"), f"{path}.nails.du", f"must be greater than Pv / k = {slip:g} m, got {nails['du']:g}")
+        nails.refuse("du", f"must be greater than Pv / k = {slip:g} m, got {nails['du']:g}")
     if nails["dv"] is not None and abs(nails["dv"] / slip - 1) > SLIP_TOLERANCE:
-        fail(nails.at("dv"), f"{path}.nails.dv", f"must be Pv / k = {slip:g} m within 10 %, got {nails['dv']:g}")
+        nails.refuse("dv", f"must be Pv / k = {slip:g} m within 10 %, got {nails['dv']:g}")
     if 2 * board["edge"] >= min(board["width"], *board["heights"]):
-        fail(board.at("edge"), f"{path}.nails.board.edge",
-             f"{board['edge']:g} m from the edge leaves no place for nails")
+        board.refuse("edge", f"{board['edge']:g} m from the edge leaves no place for nails")
     if nails["height"] is not None and nails["height"] < sum(board["heights"]):
-        fail(nails.at("height"), f"{path}.nails.height",
-             f"{nails['height']:g} m is less than the boards' heights, {sum(board['heights']):g} m")
+        nails.refuse("height",
+                     f"{nails['height']:g} m is less than the boards' heights, {sum(board['heights']):g} m")
     wall = nailed_wall(nails)
     if wall.ultimate_drift > 1:
-        fail(where, f"{path}.nails", f"the wall fails at a drift of {wall.ultimate_drift:.3g}; at most 1: check du")
-    _check_end(table, path, wall.ultimate_drift, "the drift at which the nails fail")
+        nails.refuse(None, f"the wall fails at a drift of {wall.ultimate_drift:.3g}; at most 1: check du")
+    _check_end(table, wall.ultimate_drift, "the drift at which the nails fail")
 
 
-def _check_end(table, path, last, name):
+def _check_end(table, last, name):
     if table["ultimate_drift"] is not None and not table["ultimate_drift"] > last:
-        fail(table.at("ultimate_drift"), f"{path}.ultimate_drift",
-             f"must be greater than {name}, {last:.4g}, got {table['ultimate_drift']:g}")
+        table.refuse("ultimate_drift", f"must be greater than {name}, {last:.4g}, got {table['ultimate_drift']:g}")
 
 
-def _check_saws(table, path):
-    _refuse(table, path, (*SAWS_STATES, "friction_share", "softening_drift", "ultimate_drift"), "saws")
+def _check_saws(table):
+    _refuse(table, (*SAWS_STATES, "friction_share", "softening_drift", "ultimate_drift"), "saws")
     problem = saws.unmet_by(table["saws"])
     if problem:
-        fail(table.at("saws"), f"{path}.saws", problem)
+        table.refuse("saws", problem)
 
 
-def _check_cycles(table, path):
+def _check_cycles(table):
     for key in (*SAWS_STATES, "residual_share") if table["friction_share"] is not None else ():
         if table[key] if key == "residual_share" else table[key] is not None:
-            fail(table.at(key), f"{path}.{key}", "does not go with friction_share, the law slip; remove one of them")
+            table.refuse(key, "does not go with friction_share, the law slip; remove one of them")
     if (table["reload_power"] is None) != (table["reload_drift"] is None):
-        fail(table.where, path, "reload_drift and reload_power go together; give both or none")
+        table.refuse(None, "reload_drift and reload_power go together; give both or none")
     if table["reload_power"] is not None and table["reload_share"] is not None:
-        fail(table.at("reload_share"), f"{path}.reload_share", "does not go with reload_power; remove one of them")
+        table.refuse("reload_share", "does not go with reload_power; remove one of them")
     for level in LEVELS:
         points = envelope(table, level)
         drift, largest = max(points, key=lambda point: point[1])
-        if table["friction_force"] is not None and not table["friction_force"] < largest:
-            fail(table.at("friction_force"), f"{path}.friction_force",
-                 f"must be below the largest shear, {largest:.4g} N/m, got {table['friction_force']:g}")
-        if table["friction_force"] and table["friction_force"] < LEAST_FRICTION * largest:
-            fail(table.at("friction_force"), f"{path}.friction_force", f"{table['friction_force']:g} N/m is below"
-                 f" {LEAST_FRICTION:g} of the largest shear, {largest:.4g} N/m; kN are 1000 N")
+        friction = table["friction_force"]
+        if friction is not None and not friction < largest:
+            table.refuse("friction_force", f"must be below the largest shear, {largest:.4g} N/m, got {friction:g}")
+        if friction and friction < LEAST_FRICTION * largest:
+            table.refuse("friction_force", f"{friction:g} N/m is below {LEAST_FRICTION:g} of the largest shear,"
+                         f" {largest:.4g} N/m; kN are 1000 N")
         if table["pinched_share"]:
-            left = largest - cycles(table, level).friction_force
+            left = largest - cycles(table, level)[0].friction_force
             share = left / drift / steepest(points)
             if not table["pinched_share"] < share:
-                fail(table.at("pinched_share"), f"{path}.pinched_share", "the pinched line must stay below the largest"
-                     f" shear: less than {share:.3g}, got {table['pinched_share']:g}")
+                table.refuse("pinched_share", "the pinched line must stay below the largest shear: less than"
+                             f" {share:.3g}, got {table['pinched_share']:g}")
 
 
 _CHECKS = {"envelope": _check_envelope, "nails": _check_nails, "saws": _check_saws}
@@ -216,8 +200,9 @@ def envelope(table, level):
 
 
 def cycles(table, level):
+    """(WallCycles, unloading stiffness over the steepest slope of the envelope [-]) of a wall type."""
     if table["saws"] is not None:
-        return Cycles(**saws.cycles(table["saws"]))
+        return saws.cycles(table["saws"])
     points = envelope(table, level)
     given = {key: default if table[key] is None else table[key]
              for key, default in (("friction_force", FRICTION * max(shear for _, shear in points)),
@@ -225,9 +210,9 @@ def cycles(table, level):
     if table["pinched_share"]:
         given["pinched_stiffness"] = table["pinched_share"] * steepest(points)
     if table["reload_power"] is not None:
-        given |= {"reload_share": 0.0, "reload_stiffness": steepest(points), "reload_drift": table["reload_drift"],
+        given |= {"reload_share": 0.0, "reload_stiffness": steepest(points), "reload_stretch": table["reload_drift"],
                   "reload_power": table["reload_power"]}
-    return Cycles(**given)
+    return WallCycles(**given), 1.0
 
 
 def steepest(points):

@@ -15,10 +15,10 @@ import numpy as np
 
 from ..base.joint_kinds import WALL_BEAM, WALL_COLUMN
 from .errors import HouseError
+from .layout import ACROSS
 from .loads import bay_length
 from .members import column_plan, line_name, nodes_on_line, require_column
-from .model import JointSpec, Sheet, WallCycles
-from .structure import ACROSS
+from .model import JointSpec, Sheet
 from .wall_types import cycles, envelope, multiplier, quasi_multiplier, steepest
 
 SHARE = 0.5  # of a wall's shear, between beams and between columns. [-]
@@ -123,19 +123,15 @@ def _values(bay, table, level, lever, ratio):
     """Law of one half. table: wall type; lever: stretch over drift [m]; ratio: force of the spring over the shear that
     it stands for [-]. The spring unloads along the steepest line of its envelope, unless its cycles are steeper."""
     part = SHARE * bay.share(table) * bay.length * ratio
-    points, cyclic = envelope(table, level), cycles(table, level)
+    points, (cyclic, steepness) = envelope(table, level), cycles(table, level)
     scaled = tuple((lever * drift, part * shear) for drift, shear in points)
     strength = max(force for _, force in scaled)
     softening = max(stretch for stretch, force in scaled if force == strength)
-    common = {"kn": cyclic.steepness * steepest(scaled), "strength": strength, "envelope": scaled,
+    common = {"kn": steepness * steepest(scaled), "strength": strength, "envelope": scaled,
               "softening_stretch": softening, "ultimate_stretch": scaled[-1][0]}
     if table["friction_share"] is not None:
         return {**common, "law": "slip", "friction_share": table["friction_share"]}
-    rate = part / lever
-    return {**common, "law": "wall",
-            "cycles": WallCycles(part * cyclic.friction_force, cyclic.reload_target, cyclic.reload_share,
-                                 rate * cyclic.pinched_stiffness, rate * cyclic.reload_stiffness,
-                                 lever * cyclic.reload_drift, cyclic.reload_power)}
+    return {**common, "law": "wall", "cycles": cyclic.scaled(lever, part)}
 
 
 def _member_at(bay, members, top):

@@ -8,8 +8,7 @@ from fractions import Fraction
 import numpy as np
 import scipy  # submodules (27 MB) load on first use; a plain run needs none
 
-from .filters import require_size, zero_phase_highpass
-from .measures import jma_intensity, pga
+from .measures import jma_intensity, pga, require_size, zero_phase_highpass
 from .record import GAL, GroundMotion, RecordError, interpolated, peaks_gal
 
 PAD_SECONDS = 5.0  # zeros added at the end before a band-limited resampling, which treats the record as periodic. [s]

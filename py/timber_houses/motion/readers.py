@@ -13,10 +13,10 @@ import numpy as np
 
 from ..base.errors import one_line
 from ..base.input_file import exists, is_file, is_folder, shown
-from .constant_part import warn_of_constant_part
 from .formats import parse
 from .processing import round_off, turned
-from .record import GAL, STANDARD_GRAVITY, GroundMotion, RecordError, RecordWarning, require_possible
+from .record import (GAL, STANDARD_GRAVITY, GroundMotion, RecordError, RecordWarning, require_possible,
+                     warn_of_constant_part)
 from .text import DOWN, UP, direction_of, read_lines
 
 RIGHT_ANGLE_TOLERANCE = 1.0

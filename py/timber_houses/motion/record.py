@@ -142,6 +142,49 @@ def warn_of_weak_motion(motion, scale=1.0):
                       RecordWarning, stacklevel=3)
 
 
+# --- constant part: the zero error of a sensor, or gravity; it acts like a lean or like another weight ----------------
+
+LARGEST_SHARE = 0.02
+"""Largest mean of a component that needs no warning, as a share of its peak; that of recorded motions is below 0.01 %
+as published, below 1 % in parts of a few seconds. [-]"""
+VISIBLE = 1e-3  # smaller means, as a share of the largest acceleration of all components, are noise. [-]
+ROUNDING = 1e-9  # what is left of a constant part that was removed. [m/s2]
+CONSTANT_AXES = (("N-S", 1, "a lean"), ("E-W", 0, "a lean"), ("up-down", 2, "a change of weight"))
+"""Name, column of the accelerations, effect."""
+
+
+def constant_note(motion, scale=1.0):
+    """'constant part of 60 gal N-S (17 % of the peak) acts like a lean of 6.12 %; ...', or ''. scale: factor [-]"""
+    pieces = [motion.acceleration]  # of a sequence those of each motion
+    if motion.parts:
+        ranges = ((round(part.start / motion.dt), round((part.start + part.duration) / motion.dt))
+                  for part in motion.parts)
+        pieces = [motion.acceleration[first:end] for first, end in ranges if end > first]
+    texts = max((list(_constant_texts(samples, scale)) for samples in pieces), key=len, default=[])
+    return f"constant part of {', '.join(texts)}; --detrend 0 removes it" if texts else ""
+
+
+def warn_of_constant_part(motion):
+    """Warn when a motion has one; returns the motion."""
+    note = constant_note(motion)
+    if note:
+        warnings.warn(f"{motion.name}: {note}", RecordWarning, stacklevel=3)
+    return motion
+
+
+def _constant_texts(samples, scale):
+    means, peaks = scale * samples.mean(axis=0), np.abs(scale * samples).max(axis=0)
+    for name, k, effect in CONSTANT_AXES:
+        if abs(means[k]) > max(LARGEST_SHARE * peaks[k], VISIBLE * peaks.max(), ROUNDING):
+            share, strength = abs(means[k]) / peaks[k], abs(means[k]) / STANDARD_GRAVITY
+            gal = means[k] / GAL
+            yield (f"{gal:{'.0f' if abs(gal) >= 100 else '.3g'}} gal {name} ({100 * share:.0f} % of the peak) acts like"
+                   f" {effect} of {100 * strength:.3g} %")
+
+
+# --- units and files --------------------------------------------------------------------------------------------------
+
+
 def unit_factor(unit, where):
     """Size of an acceleration unit in m/s2; `where` (file, line) opens the message of RecordError."""
     key = unit.strip().lower().replace(" ", "").strip("()[]")

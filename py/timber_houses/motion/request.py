@@ -8,10 +8,9 @@ import numpy as np
 
 from ..base.errors import InputError
 from ..base.options import add_options, check_ranges, command_option, is_given, option, options, read_arguments
-from .constant_part import warn_of_constant_part
 from .processing import highpass, remove_polynomial, resample, scaled_to_intensity, scaled_to_pga, trim, turned
 from .readers import DEFAULT_RECORD, read_unchecked
-from .record import RecordError, require_possible, warn_of_weak_motion
+from .record import RecordError, require_possible, warn_of_constant_part, warn_of_weak_motion
 from .sequence import DEFAULT_GAP, following, joined
 from .synthetic import DEFAULT_SEED, synthetic_motion
 

@@ -6,7 +6,7 @@ from math import gcd, lcm
 
 import numpy as np
 
-from .filters import require_size
+from .measures import require_size
 from .record import GroundMotion, RecordError, subdivided
 
 DEFAULT_GAP = 5.0  # quiet between two motions of a sequence. [s]

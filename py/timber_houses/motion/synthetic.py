@@ -19,8 +19,8 @@ from dataclasses import dataclass
 import numpy as np
 import scipy  # submodules (27 MB) load on first use; a plain run needs none
 
-from .filters import zero_phase_highpass
-from .measures import CM, INTENSITY_DURATION, VELOCITY_CORNER, jma_filtered, peak, pga, response_spectrum
+from .measures import (CM, INTENSITY_DURATION, VELOCITY_CORNER, jma_filtered, peak, pga, response_spectrum,
+                       zero_phase_highpass)
 from .record import GAL, GroundMotion, RecordError
 
 GENERATOR_VERSION = 1  # raised whenever the output for a given seed changes

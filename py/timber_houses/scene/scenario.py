@@ -12,9 +12,9 @@ from yade_timber.scene.queries import stable_dt
 from ..base.colors import KINDS
 from ..base.time_step import DEFAULT_DT, rest_stride
 from ..house import build_house, load_house
+from ..house.description import own_coefficient
 from ..house.disturbance import disturb
 from ..house.errors import StepError
-from ..house.friction import own_coefficient
 from . import sway
 
 SETTLING = 0.2  # time in which a house comes to rest under its weight before its sway modes are computed. [s]

@@ -32,37 +32,26 @@ def result(summary):
         counts = ((state, summary.verdicts.count(state)) for state in STATES)
         houses = "、".join(f"{OUTCOMES[state]} {count} 棟" for state, count in counts if count)
         return f"{len(summary.lots)} 棟のうち{houses}。"
-    parts = [cut_off(summary), outcome(summary), other_walls(summary), weight(summary), moving(summary),
-             *structures(summary), joints(summary), columns(summary), snow(summary), record(summary), early(summary),
-             unconverged(summary)]
+    parts = [remark(english.cut_off, summary), outcome(summary), remark(english.other_walls, summary),
+             remark(english.weight, summary), moving(summary), *structures(summary), joints(summary), columns(summary),
+             snow(summary), remark(english.record, summary), early(summary), remark(english.unconverged, summary)]
     return ensemble(summary) + "。".join(filter(None, parts)) + "。"
 
 
-def cut_off(summary):
-    return f"{summary.duration_s:.2f} 秒で計算を打ち切り、以下の結果は信頼できない" if english.cut_off(summary) else ""
+REMARKS = {
+    english.cut_off: lambda summary: f"{summary.duration_s:.2f} 秒で計算を打ち切り、以下の結果は信頼できない",
+    english.other_walls: lambda summary: (f"耐力壁の強さを{WALL_LEVELS[summary.walls.other.level]}とすると"
+                                          f"{OUTCOMES[summary.walls.other.verdict]}"),
+    english.weight: lambda summary: ("揺れの前に{}で損傷" if summary.earthquake else "{}による損傷").format(
+        "自重と積雪" if summary.snow else "自重"),
+    english.record: lambda summary: "記録の加速度に一定の成分がある",
+    english.unconverged: lambda summary: f"{summary.solver.unconverged_steps} ステップが収束していない",
+}
+"""Part of an English sentence: the same in Japanese, where the part is not empty."""
 
 
-def other_walls(summary):
-    if not english.other_walls(summary):
-        return ""
-    other = summary.walls.other
-    return f"耐力壁の強さを{WALL_LEVELS[other.level]}とすると{OUTCOMES[other.verdict]}"
-
-
-def weight(summary):
-    """Damage before the shaking; without an earthquake the cause."""
-    if not english.weight(summary):
-        return ""
-    cause = "自重と積雪" if summary.snow else "自重"
-    return f"揺れの前に{cause}で損傷" if summary.earthquake else f"{cause}による損傷"
-
-
-def record(summary):
-    return "記録の加速度に一定の成分がある" if english.record(summary) else ""
-
-
-def unconverged(summary):
-    return f"{summary.solver.unconverged_steps} ステップが収束していない" if english.unconverged(summary) else ""
+def remark(part, summary):
+    return REMARKS[part](summary) if part(summary) else ""
 
 
 def outcome(summary):
