@@ -73,7 +73,7 @@ def parts(model):
     within another one. [m]"""
     plans = [element.vertices[:, :2] for element in model.elements if element.kind != "ground"]
     found: list = []
-    for hull in sorted(map(scipy.spatial.ConvexHull, plans), key=lambda hull: -hull.volume):  # volume: in a plane, the area
+    for hull in sorted(map(scipy.spatial.ConvexHull, plans), key=lambda hull: -hull.volume):  # volume: the area
         corners = hull.points[hull.vertices]
         if not any((corners @ other.equations[:, :2].T + other.equations[:, 2] <= ROUNDING).all() for other in found):
             found.append(hull)
