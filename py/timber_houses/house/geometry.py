@@ -5,7 +5,7 @@ from functools import cached_property, lru_cache
 from itertools import combinations
 
 import numpy as np
-from scipy.spatial import ConvexHull, QhullError
+import scipy  # submodules load on first use; pictures need none
 
 SNAP_DIGITS = 12  # coordinates [m] are rounded to 1e-12, so that vertices computed from different planes become equal
 AXES = np.eye(3)
@@ -49,8 +49,8 @@ class Polyhedron:
     @cached_property
     def hull(self):
         try:
-            hull = ConvexHull(self.vertices)
-        except (QhullError, ValueError):
+            hull = scipy.spatial.ConvexHull(self.vertices)
+        except (scipy.spatial.QhullError, ValueError):
             raise ValueError("vertices are flat, too few or not finite") from None
         if len(hull.vertices) != len(self.vertices):
             raise ValueError(f"{len(self.vertices) - len(hull.vertices)} of {len(self.vertices)} vertices lie inside"
@@ -261,6 +261,6 @@ def facing_polygon(a, b, gap):
 def _outline(points):
     """Corners (n, 2), counter-clockwise, of the convex hull of points in a plane; none of points on a line."""
     try:
-        return points[ConvexHull(points).vertices]
-    except (QhullError, ValueError):
+        return points[scipy.spatial.ConvexHull(points).vertices]
+    except (scipy.spatial.QhullError, ValueError):
         return np.zeros((0, 2))

@@ -9,7 +9,7 @@ from itertools import product
 from pathlib import Path
 
 import numpy as np
-from scipy.spatial import ConvexHull
+import scipy  # submodules load on first use; pictures need none
 
 from ..base.errors import located, one_line
 from ..base.input_file import is_file, shown
@@ -78,7 +78,7 @@ def parts(model):
     within another one. [m]"""
     plans = [element.vertices[:, :2] for element in model.elements if element.kind != "ground"]
     found: list = []
-    for hull in sorted(map(ConvexHull, plans), key=lambda hull: -hull.volume):  # volume: in a plane, the area
+    for hull in sorted(map(scipy.spatial.ConvexHull, plans), key=lambda hull: -hull.volume):  # volume: the area
         corners = hull.points[hull.vertices]
         if not any((corners @ other.equations[:, :2].T + other.equations[:, 2] <= ROUNDING).all() for other in found):
             found.append(hull)

@@ -38,12 +38,14 @@ def write(folder, path=None, pdf=False, views=True, page=False):
     """
     if not (views or page):
         return []
-    from . import figures, player, report, sheets, town_page  # here: matplotlib takes 0.3 s
+    from . import figures, player, sheets  # here: matplotlib takes 0.3 s
     from .renderer import NoOpenGL
 
     path, endings = path or folder / frames.NAME, ("png", "pdf") if pdf else ("png",)
     recorded = frames.load(path)
     if isinstance(recorded.summary, TownSummary):
+        from . import town_page
+
         return [*figures.save(town_page.figure(recorded), (folder / MAP).with_suffix("")),
                 town_page.write(folder, recorded), player.make([(path, recorded)], folder / PLAYER)]
     written, left_out, stills = [], {}, sheets.Stills(recorded)
@@ -55,8 +57,13 @@ def write(folder, path=None, pdf=False, views=True, page=False):
     with noted():
         if left_out:
             warnings.warn(f"without {', '.join(left_out)}: {list(left_out.values())[-1]}")
-    return [*written, *([player.make([(path, recorded)], folder / PLAYER)] if views else []),
-            *(report.write(folder, stills) if page else [])]
+    if views:
+        written.append(player.make([(path, recorded)], folder / PLAYER))
+    if page:
+        from . import report
+
+        written += report.write(folder, stills)
+    return written
 
 
 def _pages(stills, folder):

@@ -5,7 +5,7 @@ Still views, films, the player and VTK draw these plates; sheets of one bay lie 
 """
 from collections import Counter
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, lru_cache
 
 import numpy as np
 
@@ -43,6 +43,7 @@ class Plate:
         return self.torn == (states[self.sheet] == "broken")
 
 
+@lru_cache(2)
 def plates(frames):
     """Plates of a run, vertices in the body frames of their columns."""
     e = frames.elements
@@ -135,9 +136,11 @@ def _plates(bays):
     for sheet, (low, high, corners, opening) in enumerate(bays):
         aside = LAYER * (before[low, high] - (of_bay[low, high] - 1) / 2)
         before[low, high] += 1
+        normal = np.cross(corners[1] - corners[0], corners[3] - corners[0])
+        normal /= np.linalg.norm(normal)
         for body, mirrored in ((low, False), (high, True)):
             for torn in (False, True):
-                made.append(Plate(sheet, body, torn, *_solid(corners, opening, torn, mirrored, aside)))
+                made.append(Plate(sheet, body, torn, *_solid(corners, opening, torn, mirrored, aside, normal)))
     return made
 
 
@@ -167,10 +170,8 @@ def _outlines(opening, torn, mirrored):
     return cells, [[8 * number + k for k in face] for number in range(len(cells)) for face in BOX]
 
 
-def _solid(corners, opening, torn, mirrored, aside):
-    """(vertices, faces) of a half. corners: of its bay; aside: of its middle plane [m]"""
-    normal = np.cross(corners[1] - corners[0], corners[3] - corners[0])
-    normal /= np.linalg.norm(normal)
+def _solid(corners, opening, torn, mirrored, aside, normal):
+    """(vertices, faces) of a half. corners, normal: of its bay; aside: of its middle plane [m]"""
     cells, faces = _outlines(opening, torn, mirrored)
     points = _place(corners, *np.moveaxis(cells[..., None], 2, 0))
     sides = [points + (aside + side * THICKNESS / 2) * normal for side in (1, -1)]

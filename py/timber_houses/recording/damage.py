@@ -41,11 +41,13 @@ class Level:
 
 @dataclass(frozen=True)
 class State:
-    """position (N, 3) [m], orientation (N, 4) w, x, y, z, NaN for a removed element; broken (J,): broken springs."""
+    """position (N, 3) [m], orientation (N, 4) w, x, y, z, NaN for a removed element; broken (J,): broken springs;
+    load (J,) over strength [-], which only a record needs."""
 
     position: np.ndarray
     orientation: np.ndarray
     broken: np.ndarray
+    load: np.ndarray | None = None
 
 
 @dataclass

@@ -106,7 +106,7 @@ class Motion(_ShortRepr):
         return float(self.time[reached[-1]] + self.dt) if len(reached) else self.start
 
 
-@dataclass(repr=False)
+@dataclass(repr=False, eq=False)
 class Frames:
     """The file's content. time, position, orientation, load, broken: arrays, or lists during a run.
 

@@ -177,11 +177,12 @@ class Observer:
     def read_samples(self):
         """Take the samples since the last call out of the scene, and judge them."""
         rows, axes = map(np.frombuffer, find_engine(yw.Sampler).take())
+        if not rows.size:
+            return
         samples = Samples(self.columns, rows)
         self.judge.judge(samples, axes.reshape(samples.samples, len(self.sampled), 3))
-        if samples.samples:
-            self.fresh.append(samples.rows)
-            self._past.append((samples.time[-1], pickle.dumps(self.judge.structures)))
+        self.fresh.append(samples.rows)
+        self._past.append((samples.time[-1], pickle.dumps(self.judge.structures)))
 
     def judge_until(self, time):
         """Judge all samples up to now. time [s]"""
@@ -225,12 +226,12 @@ class Observer:
     def state(self):
         """damage.State of the scene; bodies and joints that the user has added are left out."""
         elements, joints = len(self.model.elements), len(self.model.joints)
-        position, orientation = record.placements()
-        return State(position[:elements], orientation[:elements], record.joint_loads()[1][:joints])
+        (position, orientation), (load, broken) = record.placements(), record.joint_loads()
+        return State(position[:elements], orientation[:elements], broken[:joints], load[:joints])
 
     def observe(self, time, last=False):
-        """Note the events up to a time [s], that of the scene's state. last: whether it is the final state. Raises
-        RuntimeError."""
+        """Note the events up to a time [s], that of the scene's state, which is returned. last: whether it is the final
+        state. Raises RuntimeError."""
         self.log.drop_after(time)
         self._require_levels()
         self.judge_until(time)
@@ -248,6 +249,7 @@ class Observer:
             structures = self.survey.by_structure(state, self.judge.structures)
             if any(facts.verdict != UNDAMAGED for facts in structures.values()):
                 self.log.add(time, OwnWeight("snow" in self.survey.elements.kind, structures))
+        return state
 
     def _require_levels(self):
         """Raise RuntimeError if a level has no body any more."""

@@ -31,16 +31,14 @@ class Recorder:
         self.model, self.path, self.log, self.times = model, path, AppendLog(path.with_name(frame_log.NAME), run), []
         self.described = False  # whether the file holds elements and joints of this run
 
-    def take(self, time, last=False):
-        """Record the scene as it is now, unless that is done. time [s]; last: whether it is the final state."""
+    def take(self, time, state, last=False):
+        """Record the State of the scene, unless that is done. time [s]; last: whether it is the final one."""
         if self.times and self.times[-1] > time + O.dt / 2:  # an earlier state was loaded
             self._cut(time)
         if self.times and self.times[-1] > time - O.dt / 2:
             return
         self.times.append(time)
-        elements, joints = len(self.frames.elements.name), len(self.frames.joints.name)
-        bodies = (values[:elements] for values in record.placements())
-        self.log.add(frame_log.FRAME, time, *bodies, *(values[:joints] for values in record.joint_loads()))
+        self.log.add(frame_log.FRAME, time, state.position, state.orientation, state.load, state.broken)
         if last or (len(self.times) - 1) % frames.CONTACT_EVERY == 0:
             self.log.add(frame_log.CONTACTS, time, *record.contact_points())
 

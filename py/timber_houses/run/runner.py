@@ -98,9 +98,7 @@ class Run(Stoppable):
             return
         clear(self.options, *RECORDED, *STATE)
         self._observe()
-        self.observer.observe(O.time)
-        if self.recorder:
-            self.recorder.take(O.time)
+        self.take(O.time)
         if self.options.resume:
             self.options.say(f"no checkpoint of this run in {self.options.folder}: starting from the beginning")
 
@@ -204,9 +202,9 @@ class Run(Stoppable):
     def take(self, time, last=False):
         """Note events and record a frame of the scene as it is now. time [s]; last: whether it is the final state."""
         with physics_errors():
-            self.observer.observe(time, last)
+            state = self.observer.observe(time, last)
         if self.recorder:
-            self.recorder.take(time, last)
+            self.recorder.take(time, state, last)
 
     def advance(self, step):
         """Advance to that step by `O.step`: unlike `O.run` it raises errors here and does not wait in slices."""

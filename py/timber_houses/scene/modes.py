@@ -16,13 +16,14 @@ import numpy as np
 import yade.wrapper as yw
 from scipy import sparse
 from scipy.sparse.csgraph import connected_components
-from scipy.sparse.linalg import ArpackError, eigsh
+from scipy.sparse.linalg import ArpackError, LinearOperator, eigsh, splu
 from yade_timber.plugin import compiled
 from yade_timber.scene.background import between_steps
 from yade_timber.scene.engines import find_engine
 
 SHIFT = -1.0  # eigenvalues nearest to this are found first [1/s2]; below zero, since a wreck has many at zero
 SEARCHED = 40  # number of modes that are looked at. [-]
+PIVOT = 0.01  # smallest diagonal pivot over the largest entry of its column: the shifted matrix is symmetric. [-]
 SLOWEST = 60.0
 """Longest period of a mode, and longest 2 pi / sqrt(-omega^2) of an unstable one [s]; slower motions are free.
 Observed: unbraced frames up to 4 s, rounding of free motions 1e8 s."""
@@ -121,15 +122,17 @@ def _vibrations(K, M):
     order, slowest = K.shape[0], (2 * np.pi / SLOWEST) ** 2
     start = np.random.default_rng(0).normal(size=order)  # ARPACK's own depends on earlier calls
     omega2, vectors, searched = np.empty(0), np.empty((order, 0)), 0
-    while len(omega2) < SEARCHED and searched < order - 1:
-        searched = min(max(SEARCHED, searched + SEARCHED - len(omega2)), order - 1)
-        try:
-            omega2, vectors = eigsh(K, k=searched, M=M, sigma=SHIFT, which="LM", v0=start)
-        except (ArpackError, RuntimeError):  # no convergence, or a singular factor
-            return np.empty(0), np.empty((order, 0))
-        chosen = np.argsort(omega2, kind="stable")
-        chosen = chosen[abs(omega2[chosen]) > slowest]
-        omega2, vectors = omega2[chosen], vectors[:, chosen]
+    try:
+        factor = splu(K - SHIFT * M, "MMD_AT_PLUS_A", diag_pivot_thresh=PIVOT, options={"SymmetricMode": True})
+        inverse = LinearOperator(K.shape, factor.solve, dtype=float)
+        while len(omega2) < SEARCHED and searched < order - 1:
+            searched = min(max(SEARCHED, searched + SEARCHED - len(omega2)), order - 1)
+            omega2, vectors = eigsh(K, k=searched, M=M, sigma=SHIFT, which="LM", v0=start, OPinv=inverse)
+            chosen = np.argsort(omega2, kind="stable")
+            chosen = chosen[abs(omega2[chosen]) > slowest]
+            omega2, vectors = omega2[chosen], vectors[:, chosen]
+    except (ArpackError, RuntimeError):  # no convergence, or a singular factor
+        return np.empty(0), np.empty((order, 0))
     return omega2, vectors
 
 
