@@ -16,7 +16,7 @@ from timber_houses.base.notes import noted
 from timber_houses.house import btlx_text, build_house, diagnose, load_house, shipped_houses, weigh
 from timber_houses.pictures import drawings, pushover
 from timber_houses.pictures.figures import save, stem_and_endings
-from timber_houses.study.own_weight import check_own_weight
+from timber_houses.study.probe import check_own_weight
 
 
 def arguments():

@@ -24,7 +24,7 @@ from timber_houses.recording.summary_parts import Ensemble
 from timber_houses.run.identity import made_from
 from timber_houses.run.options import RunOptions, scripted
 from timber_houses.study import driver
-from timber_houses.study.ensemble import results, runs, statistics
+from timber_houses.study.ensemble import runs, statistics
 from timber_houses.text import japanese
 from timber_houses.text.english import sentence
 
@@ -231,7 +231,7 @@ def test_failed_runs_are_counted_and_end_in_an_error(finished, monkeypatch):
 
 def test_lines_for_the_terminal(finished):
     _, _, found = finished
-    lines = results.lines(results.content(found, {}), found[1])
+    lines = runs.lines(runs.content(found, {}), found[1])
     assert lines[1:3] == ["unsafe: 2 runs, 67 % (95 % confidence: 9 to 99 %)",
                           "collapsed: 1 run, 33 % (95 % confidence: 1 to 91 %)"]
     assert [line.split() for line in lines if line.startswith("collapse [s]")] == [[
@@ -242,7 +242,7 @@ def test_lines_for_the_terminal(finished):
 
 def test_wall_sheets_have_a_line_of_their_own():
     sheets = {k: summary(broken={"total": 1, "wall_sheets": k}) for k in (1, 2, 5)}
-    lines = results.lines(results.content(sheets, {}), sheets[1])
+    lines = runs.lines(runs.content(sheets, {}), sheets[1])
     assert [line.split()[:6] for line in lines if "wall" in line] == [["broken", "wall", "sheets", "2", "1", "to"]]
 
 
