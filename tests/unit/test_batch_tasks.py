@@ -18,9 +18,8 @@ def row(tmp_path):
 
 
 def test_every_column_becomes_an_option(row, tmp_path):
-    shaken = task_of(
-        row("house snow joint_damping scale dt duration until_collapse seed start azimuth resample shortest",
-            "C2 0.4 0.03 1.5 5e-5 3 yes 0 14 90 yes no"), tmp_path)
+    shaken = row("house snow joint_damping scale dt duration until_collapse seed start azimuth resample shortest",
+                 "C2 0.4 0.03 1.5 5e-5 3 yes 0 14 90 yes no").task(tmp_path)
     assert shaken.options == RunOptions(
         house="C2", quake=True, snow=0.4, joint_damping=0.03, scale=1.5, dt=5e-5, duration=3.0, until_collapse=True,
         seed=0, start=14.0, azimuth=90.0, resample=True, no_frames=True)

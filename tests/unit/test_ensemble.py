@@ -16,7 +16,7 @@ from summaries import sample_summary
 from timber_houses.base.errors import RunError
 from timber_houses.house import build_house, load_house
 from timber_houses.house.disturbance import LARGEST, disturb
-from timber_houses.pictures import bands, provenance
+from timber_houses.pictures import curves, provenance
 from timber_houses.recording import ensemble, frames
 from timber_houses.recording.history import History
 from timber_houses.recording.summary import Summary
@@ -294,7 +294,7 @@ def histories():
 
 def test_bands_of_three_runs():
     """At 1 s the drifts are 1, 5 and 2, at 3 s 3, 9.95 and 6: the run that has ended keeps its last drift."""
-    found = bands.quantiles(histories(), np.array([1.0, 3.0]), 1, "ns")
+    found = curves.quantiles(histories(), np.array([1.0, 3.0]), 1, "ns")
     assert found == pytest.approx(np.array([[1, 1.5, 2, 3.5, 5], [3, 4.5, 6, 7.975, 9.95]]).T)
 
 
@@ -302,7 +302,7 @@ def test_page_of_bands():
     """A panel for each storey and direction; run 2 is the line."""
     recorded = sample()
     recorded.summary = recorded.summary.changed(**place())
-    figure = bands.page(recorded, dict(enumerate([recorded.history] * 3, 1)), 40)
+    figure = curves.bands(recorded, dict(enumerate([recorded.history] * 3, 1)), 40)
     assert len(figure.axes) == 2
     assert [text.get_text()
             for text in figure.legends[0].texts] == ["range", "middle half", "median", "run 2, which is shown"]

@@ -22,7 +22,6 @@ from ..base.html import DATA, html
 from ..recording.events import Event, LevelPassed, ShakingBegins, StrongestShaking
 from ..recording.record import rotated
 from ..recording.summary import Summary, collapse_time
-from ..recording.walls import wall_sheets
 from ..text import english, japanese
 from ..text.english import cut_line
 from .key_times import FIRST_DAMAGE, STRONGEST, first_shown, named, onset, strongest_shaking
@@ -97,7 +96,7 @@ def info(run):
                       **({"uplift": lifted[k]} if k in lifted else {})}
                      for k, (name, kind, group, storey) in enumerate(zip(e.name, e.kind, e.group, e.storey))],
         "joints": len(j.name),
-        "sheets": wall_sheets(j),
+        "sheets": j.wall_sheets(),
         "sheet_colors": {state: to_hex(color) for state, color in colors.SHEETS.items() if len(run.sheets.type)},
         "plates": [{"body": plate.body, "sheet": plate.sheet, "torn": plate.torn} for plate in plates(run)],
         "joint_list": [

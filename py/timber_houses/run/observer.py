@@ -17,10 +17,9 @@ from ..base.json_types import decode, encode
 from ..recording import frames
 from ..recording.damage import SIDES, DamageSurvey, Level, State
 from ..recording.events import Collapse, EventLog, FirstBreak, OwnWeight, StructureFallen, Tilt
-from ..recording.history import DIRECTIONS
+from ..recording.history import DIRECTIONS, Samples
 from ..recording.judge import Judge, Judged
 from ..recording.quantities import AXES
-from ..recording.samples import Samples
 from ..recording.summary_parts import Mode, ModesAt
 from ..recording.verdict import UNDAMAGED
 from ..scene.modes import natural_modes

@@ -8,7 +8,7 @@ from ..base.atomic_write import remove, write_bytes
 from ..base.errors import RunError
 from ..base.record_file import MAX_SIZE, read_record
 from ..recording.append_log import AppendLog
-from ..recording.samples import Samples
+from ..recording.history import Samples
 from . import checkpoint
 
 NAME = "samples.log"

@@ -19,7 +19,7 @@ from ..text.english import counted, sentence
 from .driver import Task, about, run_missing
 
 PART = 1.0  # part of the motion that is computed, about the time at which half of its energy has arrived. [s]
-SETTLING = 3.0  # simulated time without a motion: a sound house is at rest after 1 s, and time at rest costs little. [s]
+SETTLING = 3.0  # simulated time without a motion: a sound house is at rest after 1 s, time at rest costs little. [s]
 FEW = 30.0  # simulated time of all runs, per run at a time, up to which none is computed. [s]
 
 
