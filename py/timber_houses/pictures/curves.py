@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""One page of curves of a run: ground motion, storey drifts, broken joints, energy balance; of an ensemble: storey drifts
-as bands, with the run that is shown as a line."""
+"""One page of curves of a run: ground motion, storey drifts, broken joints, energy balance. One page of an ensemble:
+storey drifts as bands, with the run that is shown as a line."""
 from itertools import cycle
 
 import numpy as np
@@ -9,11 +9,10 @@ from yade_timber.energy_terms import DISSIPATED, ELASTIC
 from ..base import colors
 from ..recording.verdict import TILT
 from ..text.english import DRIFT_LINES, direction_name
-from .figures import A4, drawable, footer, heading, heading_height, new_figure
+from .figures import A4, default_style, drawable, footer, heading, heading_height, new_figure
 from .key_times import first_shown, last_shown
 from .provenance import provenance
 from .sheets import result
-from .style import default_style
 
 DPI = 200
 DRIFT_RANGE = 0.16
@@ -150,12 +149,12 @@ def draw_energy(axis, history):
     legend(axis)
 
 
-# --- ensembles ---------------------------------------------------------------------------------------------------------
+# --- ensembles --------------------------------------------------------------------------------------------------------
 
 
 @default_style()
 def bands(frames, histories, dpi):
-    """Figure with the drifts of an ensemble. frames: of the run that is shown; histories: {number: History} of all runs"""
+    """Figure of an ensemble. frames: of the run that is shown; histories: {number: History} of all runs"""
     time = max((history.time for history in histories.values()), key=lambda time: time[-1])  # runs may end early
     shown = frames.history
     drifts = shown.drifts()

@@ -8,10 +8,9 @@ from ..motion import GAL, response_spectrum
 from ..recording.history import DIRECTIONS
 from ..recording.verdict import DAMAGE, SAFETY, TILT
 from ..text.english import direction_name, ratio
-from .figures import heading_height, new_figure
+from .figures import default_style, heading_height, new_figure
 from .key_times import first_shown, last_shown
 from .sheets import Format, result
-from .style import default_style
 from .views import FRONT, SIDE
 
 DPI = 170

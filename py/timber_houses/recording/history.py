@@ -28,7 +28,7 @@ FIRST_GROUP = "x0 [m]"  # column of Sampler at which the groups begin, six colum
 
 
 class Series(namedtuple("Table", "columns rows")):
-    """A table, also as a CSV file. columns: names with units, among them 'time [s]'; rows: (F, C) float array, one row a
+    """A table, also as a CSV file. columns: names with units, among them 'time [s]'; rows: (F, C) float array, one a
     sample."""
 
     __slots__ = ()

@@ -2,8 +2,8 @@
 """The state of a run on disk, from which it can be resumed: YADE's own saved scene with one line appended.
 
 The last line is JSON: `identity` of the run, `progress` (wall time, events so far), `sha256` of all bytes before that
-line. YADE's loader stops before it, so the file also opens with `O.load`. Once the run has ended, its samples
-(samples.py) stand before that line. The binary format keeps every bit of every number.
+line. YADE's loader stops before it, so the file also opens with `O.load`. The binary format keeps every bit of every
+number. The samples before the checkpoint are in SAMPLES beside it and, once the run has ended, before that line.
 
 YADE's loader creates whatever object the file names, also a PyRunner, which runs code. The binary format names each
 such class, with its namespace, before the first object of it; a file that names other classes than a run writes is
@@ -17,19 +17,23 @@ import resource
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
 import yade.wrapper as yw
 from yade_timber import _class_names
 
-from ..base.atomic_write import write_bytes
+from ..base.atomic_write import remove, write_bytes
 from ..base.errors import RunError, os_errors
 from ..base.files import written_from_memory
 from ..base.json_types import decode
-from ..base.record_file import record
+from ..base.record_file import MAX_SIZE, read_record, record
+from ..recording.append_log import AppendLog
 from ..recording.events import Event
+from ..recording.history import Samples
 from ..recording.judge import Judged
 from ..recording.summary_parts import ModesAt
 
-NAME = "checkpoint.yade"
+NAME, SAMPLES = "checkpoint.yade", "samples.log"
+ROWS = b"V"  # kind of the records of SAMPLES: rows of the Sampler, float64
 REMEDY = "run without --resume to start anew"
 
 
@@ -120,3 +124,42 @@ def _read(path, kind=dict):
     if not complete:
         raise RunError(f"{path}: damaged, or not a checkpoint of this package; {REMEDY}")
     return content[:end], content[end:], seal
+
+
+class SampleFile:
+    """The file SAMPLES of the loaded run. run: fingerprint of the run's identity"""
+
+    def __init__(self, path, run):
+        self.log = AppendLog(path, run)
+
+    def save(self, observer):
+        """Move an Observer's rows to the file; returns the file's size. Raises OSError."""
+        self.log.add(ROWS, O.time, *observer.fresh)
+        observer.fresh = []
+        return self.log.flush()
+
+    def all(self, observer):
+        """Samples of the run, those of its Observer included; none that were taken before an earlier state was loaded.
+        """
+        rows = [np.frombuffer(content) for _, _, content in self.log.records()]
+        samples = Samples(observer.columns, np.concatenate([*rows, *map(np.ravel, observer.fresh), []]))
+        next_times = np.append(samples.time[1:], np.inf)
+        return samples._replace(rows=samples.rows[samples.time < np.minimum.accumulate(next_times[::-1])[::-1]])
+
+    def enclose(self, path, observer):
+        """Move the file into the checkpoint at that path; the Observer has all rows then. Raises OSError, RunError."""
+        if self.log.path.exists():
+            enclose(path, read_record(self.log.path, limit=MAX_SIZE))
+            observer.fresh = [self.all(observer).rows]
+            remove(self.log.path)
+
+    def resume(self, size, enclosed, remedy):
+        """Drop rows after the present time. size: of the file at the checkpoint, whose content may be enclosed there.
+        Raises OSError, RunError."""
+        if enclosed:
+            write_bytes(self.log.path, enclosed)
+        if self.log.cut(O.time + O.dt / 2) != size:
+            raise RunError(f"{self.log.path}: missing, damaged or older than the checkpoint at {O.time:g} s; {remedy}")
+        for kind, time, content in self.log.records():
+            if kind != ROWS or len(content) % np.dtype(float).itemsize:
+                raise RunError(f"{self.log.path}: no samples at {time:g} s; {remedy}")

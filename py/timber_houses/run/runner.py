@@ -15,16 +15,15 @@ from ..pictures import OWNER, REPORT, TOWN, all_pictures
 from ..recording import ensemble, frame_log, frames
 from ..scene.scenario import build
 from ..text.english import house_name, loads, sentence
-from . import checkpoint, quantities, samples, summary
+from . import checkpoint, quantities, summary
 from .identity import identity, made_from, of_values
 from .observer import Observer
 from .progress import Bar, Status
 from .recorder import Recorder
-from .samples import SampleFile
 
 STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM)
 HOUSES = "houses.csv"  # table of a town's houses
-RECORDED, STATE = (frames.NAME, frame_log.NAME), (checkpoint.NAME, samples.NAME)
+RECORDED, STATE = (frames.NAME, frame_log.NAME), (checkpoint.NAME, checkpoint.SAMPLES)
 """Files of the frames, and of what a resumed run continues from."""
 O = yw.Omega()
 
@@ -147,7 +146,7 @@ class Run(Stoppable):
         self.identity = identity(self.origin)
         self.observer = Observer(self.model, progress)
         run, folder = of_values(self.identity), self.options.folder
-        self.samples = SampleFile(folder / samples.NAME, run)
+        self.samples = checkpoint.SampleFile(folder / checkpoint.SAMPLES, run)
         titled = title(self.scenario, self.model)
         self.options.say(titled)
         self.recorder = (None if self.options.no_frames
