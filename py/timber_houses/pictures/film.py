@@ -131,7 +131,7 @@ def _write_mp4(path, images, form, _count):
     with tempfile.TemporaryFile() as said:
         try:
             process = subprocess.Popen(command, stdin=subprocess.PIPE, stderr=said,
-                                       restore_signals=False)  # a limit of the file's size: an error that ffmpeg reports
+                                       restore_signals=False)  # a limit of the file's size: ffmpeg reports the error
         except FileNotFoundError:
             raise RunError("a film in MP4 needs ffmpeg: install the package ffmpeg, or choose a name that ends in"
                            " .webp") from None
