@@ -12,7 +12,7 @@ from yade_timber.scene.export import export_scene
 from ..base.atomic_write import remove, written_whole
 from ..base.errors import RunError, os_errors
 from ..pictures import OWNER, REPORT, TOWN, all_pictures
-from ..recording import ensemble, frame_log, frames
+from ..recording import append_log, ensemble, frames
 from ..scene.scenario import build
 from ..text.english import house_name, loads, sentence
 from . import checkpoint, quantities, summary
@@ -23,7 +23,7 @@ from .recorder import Recorder
 
 STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM)
 HOUSES = "houses.csv"  # table of a town's houses
-RECORDED, STATE = (frames.NAME, frame_log.NAME), (checkpoint.NAME, checkpoint.SAMPLES)
+RECORDED, STATE = (frames.NAME, append_log.FRAMES_LOG), (checkpoint.NAME, checkpoint.SAMPLES)
 """Files of the frames, and of what a resumed run continues from."""
 O = yw.Omega()
 

@@ -89,7 +89,7 @@ class Entry:
 
 @dataclass(frozen=True)
 class Comparison:
-    """A measure and the house as it is. differences (M,) of the responses; fallen (M, 2) bool: whether each collapses."""
+    """A measure and the house as it is. differences (M,) of the responses; fallen (M, 2): whether each collapses."""
 
     differences: np.ndarray
     fallen: np.ndarray
