@@ -8,7 +8,7 @@ import frames_sample
 import numpy as np
 import pytest
 from summaries import sample_summary
-from timber_houses.base.json_types import encode
+from timber_houses.base.json_types import decode, encode
 from timber_houses.recording.damage import DamageSurvey, Level, State
 from timber_houses.recording.events import ColumnsLost, Event, EventLog, OwnWeight, SnowFallen, StructureFallen
 from timber_houses.recording.judge import Judged
@@ -84,7 +84,7 @@ def test_a_resumed_log_repeats_nothing():
     """Events known from a checkpoint are not noted again; a log that goes back forgets later ones."""
     run = frames_sample.run()
     once = events(run)
-    log = EventLog(survey(run), json.loads(json.dumps(encode(once))))
+    log = EventLog(survey(run), decode(list[Event], json.loads(json.dumps(encode(once)))))
     assert events(run, log) == once
     log.drop_after(2.42)
     assert log.sorted() == once[:1] and once[0].time_s < 2.42 < once[1].time_s

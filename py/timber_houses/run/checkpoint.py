@@ -24,7 +24,7 @@ from yade_timber import _class_names
 from ..base.atomic_write import remove, write_bytes
 from ..base.errors import RunError, os_errors
 from ..base.files import written_from_memory
-from ..base.json_types import decode
+from ..base.json_types import decode, encode
 from ..base.record_file import MAX_SIZE, read_record, record
 from ..recording.append_log import AppendLog
 from ..recording.events import Event
@@ -56,10 +56,11 @@ O = yw.Omega()
 
 
 def save(path, identity, progress):
-    """Save the scene, whole or not at all. identity: see identity.py; progress: what `load` returns. Raises OSError."""
+    """Save the scene, whole or not at all. identity: see identity.py; progress: Progress. Raises OSError."""
     with written_from_memory(path) as memory:
         _save(memory)
-        seal = {"identity": identity, "progress": progress, "sha256": hashlib.sha256(memory.read_bytes()).hexdigest()}
+        seal = {"identity": identity, "progress": encode(progress),
+                "sha256": hashlib.sha256(memory.read_bytes()).hexdigest()}
         with open(memory, "ab") as file:
             file.write(b"\n" + json.dumps(seal).encode())
 
@@ -83,8 +84,8 @@ def enclose(path, content):
 
 
 def load(path, identity, kind=dict):
-    """Load the saved scene; returns `progress` as saved, and the enclosed samples or b"". kind: of progress, as of
-    json_types. Raises RunError for damage or another identity."""
+    """Load the saved scene; returns its progress, and the enclosed samples or b"". kind: of progress, as of json_types.
+    Raises RunError for damage or another identity."""
     body, samples, seal = _read(path, kind)
     for key in sorted(seal["identity"].keys() | identity.keys()):
         there, here = seal["identity"].get(key), identity.get(key)
@@ -117,7 +118,7 @@ def _read(path, kind=dict):
         content, _, line = content.rpartition(b"\n")
         seal = json.loads(line)
         complete = hashlib.sha256(content).hexdigest() == seal["sha256"] and isinstance(seal["identity"], dict)
-        decode(kind, seal["progress"])
+        seal["progress"] = decode(kind, seal["progress"])
         end = len(content) - seal.get("enclosed", 0)
     except (ValueError, KeyError, TypeError, RecursionError):
         complete = False

@@ -134,10 +134,10 @@ class Run(Stoppable):
         if O.iter >= self.steps:
             duration = f"{self.options.named('duration')} {self.scenario.duration:g}"
             raise RunError(f"{duration}: {self.checkpoint_path} is already at {O.time:g} s; give a longer duration")
-        self.wall_s, self.last_saved = saved["wall_s"], O.iter
+        self.wall_s, self.last_saved = saved.wall_s, O.iter
         self._observe(saved)
         with os_errors(lambda fault: f"{self.options.folder}: the run cannot be continued ({fault})"):
-            self.samples.resume(saved["samples"], rows, checkpoint.REMEDY)
+            self.samples.resume(saved.samples, rows, checkpoint.REMEDY)
             if self.recorder:
                 self.recorder.resume()
 
@@ -226,7 +226,7 @@ class Run(Stoppable):
             if self.recorder:
                 self.recorder.save()
             self.observer.read_samples()
-            progress = {"wall_s": self.wall_s, "samples": self.samples.save(self.observer), **self.observer.progress()}
+            progress = checkpoint.Progress(self.wall_s, self.samples.save(self.observer), **self.observer.progress())
             checkpoint.save(self.checkpoint_path, self.identity, progress)
         self.last_saved = O.iter
 
