@@ -16,7 +16,6 @@ from timber_research import design
 from timber_research.screening import cells, picture, report
 from timber_research.screening.collect import collect
 from timber_houses.study.batch import run_rows, write_runs
-from timber_houses.study.batch.tasks import task_of
 from timber_houses.study.options import (Parser, add_driver_options, list_of, non_negative, positive, record,
                                          run_script, seed)
 
@@ -74,7 +73,7 @@ def main():
             run_rows([row for row, is_chosen in zip(rows, chosen) if is_chosen], options.out, options.jobs)
     finally:
         write_runs(rows, options.out)
-        summaries = [task_of(row, options.out).summary for row in rows]
+        summaries = [row.task(options.out).summary for row in rows]
         results = collect(planned, summaries)
         for path in [*report.write(results, options.out), picture.draw(results, options.out / "screening.png")]:
             print(f"written: {path}")

@@ -144,7 +144,7 @@ export class Run {
     return found;
   }
 
-  /** Current state of a wall sheet, as in recording/walls.py. */
+  /** Current state of a wall sheet, as in recording/record.py. */
   sheetState(sheet) {
     const broken = this.sheets[sheet].filter((j) => this.joint.state[j] !== STATE.whole).length;
     return broken === 0 ? "whole" : broken < this.sheets[sheet].length ? "partly" : "broken";

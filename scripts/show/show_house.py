@@ -14,9 +14,9 @@ from timber_houses.base.atomic_write import write_text
 from timber_houses.base.errors import RunError
 from timber_houses.base.notes import noted
 from timber_houses.house import btlx_text, build_house, diagnose, load_house, shipped_houses, weigh
-from timber_houses.pictures import drawings, pushover
+from timber_houses.pictures import drawings, report_pictures
 from timber_houses.pictures.figures import save, stem_and_endings
-from timber_houses.study.own_weight import check_own_weight
+from timber_houses.study.probe import check_own_weight
 
 
 def arguments():
@@ -32,7 +32,7 @@ def arguments():
 def pushovers(path, structures):
     """Write the pushover curves of the structures beside the drawings; returns the paths."""
     stem, endings = stem_and_endings(path)
-    drawn = {name: pushover.figure(name, structure) for name, structure in structures.items()}
+    drawn = {name: report_pictures.pushover(name, structure) for name, structure in structures.items()}
     return [written for name, figure in drawn.items() if figure is not None
             for written in save(figure, stem.with_name(f"{stem.name}_pushover_{name}"), endings)]
 

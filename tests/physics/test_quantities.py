@@ -7,7 +7,7 @@ import yade_timber as yt
 from timber_houses.motion import GroundMotion
 from timber_houses.recording.record import Motion
 from timber_houses.recording.quantities import storeys
-from timber_houses.recording.samples import Samples
+from timber_houses.recording.history import Samples
 from timber_houses.scene.modes import SLOWEST, natural_modes
 
 O = yw.Omega()

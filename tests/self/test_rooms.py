@@ -35,15 +35,13 @@ FORBIDDEN = {
     "study": {"api"},
 }
 """Room: what its modules must not import. api may import everything."""
-STUDY = {"options", "driver", "batch", "ensemble", "retrofit", "own_weight", "other_walls", "probe"}
+STUDY = {"options", "driver", "batch", "ensemble", "retrofit", "probe"}
 FORBIDDEN_IN_STUDY = {
     "options": STUDY - {"options"},
     "driver": STUDY - {"driver"},
     "batch": {"options", "ensemble", "retrofit"},
     "ensemble": {"options", "batch", "retrofit"},
     "retrofit": {"options", "ensemble"},
-    "own_weight": STUDY - {"own_weight", "driver"},
-    "other_walls": STUDY - {"other_walls", "driver"},
     "probe": STUDY - {"probe", "driver"},
 }
 """Part of study, a module or a folder: the parts that it must not import."""

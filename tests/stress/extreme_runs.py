@@ -103,7 +103,7 @@ def float32_house(house):
     for element in model.elements:
         element.vertices = np.asarray(element.vertices, np.float32)
     for joint in model.joints:
-        joint.points = np.asarray(joint.points, np.float32)
+        joint.points = np.asarray(joint.points, np.float32).astype(float)
     O.reset()
     joints = scenario.add_joints(model, scenario.add_elements(model))
     O.engines = engines.engines(joints=joints, **scenario.law_options(model.law))

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from small_frames import frames
 from timber_houses.base.errors import RunError
-from timber_houses.recording import append_log, frame_log
+from timber_houses.recording import append_log
 from timber_houses.recording import frames as files
 from timber_houses.recording.append_log import AppendLog
 
@@ -100,8 +100,8 @@ def unfinished(folder):
         setattr(described, name, [])
     described.contacts = files.Contacts()
     files.save(folder / files.NAME, described)
-    log = AppendLog(folder / frame_log.NAME, "run 1")
-    frame_log.log_frames(log, made)
+    log = AppendLog(folder / append_log.FRAMES_LOG, "run 1")
+    append_log.log_frames(log, made)
     log.flush()
     return log
 
@@ -117,20 +117,20 @@ def test_frames_of_an_unfinished_run(tmp_path):
             made, name).dtype, name
     for name, values in vars(made.contacts).items():
         assert all(map(np.array_equal, getattr(read.contacts, name), values)), name
-    os.truncate(tmp_path / frame_log.NAME, (tmp_path / frame_log.NAME).stat().st_size // 2)
+    os.truncate(tmp_path / append_log.FRAMES_LOG, (tmp_path / append_log.FRAMES_LOG).stat().st_size // 2)
     assert 0.4 * len(made.time) < len(files.load(tmp_path / files.NAME).time) < 0.6 * len(made.time)
     files.save(tmp_path / files.NAME, frames())
     assert len(files.load(tmp_path / files.NAME).time) == len(made.time)
 
 
-@pytest.mark.parametrize("kind", [frame_log.FRAME, frame_log.CONTACTS, b"X"])
+@pytest.mark.parametrize("kind", [append_log.FRAME, append_log.CONTACTS, b"X"])
 @pytest.mark.parametrize("size", [0, 1, 33, 10**5])
 def test_hostile_records(tmp_path, kind, size):
     """One line for records of other kinds and sizes."""
     log = unfinished(tmp_path)
     log.add(kind, 9.0, np.full(size, 255, "u1"))
     log.flush()
-    if (kind, size) == (frame_log.CONTACTS, 0):
+    if (kind, size) == (append_log.CONTACTS, 0):
         assert files.load(tmp_path / files.NAME).contacts.time[-1] == 9.0
         return
     with pytest.raises(RunError, match="frames.h5: cannot read the frames") as raised:

@@ -11,8 +11,7 @@ from summaries import sample_summary
 from timber_houses.base.errors import RunError
 from timber_houses.recording.events import Event, StructureFallen, Tilt
 from timber_houses.study.batch import BatchError, check_rows, read_table, write_runs
-from timber_houses.study.batch.collect import RESULTS
-from timber_houses.study.batch.tasks import task_of
+from timber_houses.study.batch.rows import RESULTS
 from timber_houses.run.identity import made_from
 
 TABLE = """# comment
@@ -151,7 +150,7 @@ def result(rows, folder, summary, errors=()):
         (folder / row.name).mkdir()
         (folder / row.name / "run.json").write_text(json.dumps({"status": "failed", "error": error}))
     (folder / rows[0].name).mkdir()
-    sample_summary(**summary, made_from=made_from(task_of(rows[0], folder).options)).write(folder / rows[0].name)
+    sample_summary(**summary, made_from=made_from(rows[0].task(folder).options)).write(folder / rows[0].name)
     write_runs(rows, folder)
     with open(folder / "runs.csv", newline="") as file:
         return list(csv.DictReader(file))

@@ -5,7 +5,6 @@ import pytest
 from timber_houses.house import load_house
 from timber_houses.run.options import RunOptions
 from timber_houses.study.batch import BatchError, check_rows, read_table
-from timber_houses.study.batch.tasks import task_of
 
 
 @pytest.fixture
@@ -19,19 +18,18 @@ def row(tmp_path):
 
 
 def test_every_column_becomes_an_option(row, tmp_path):
-    shaken = task_of(
-        row("house snow joint_damping scale dt duration until_collapse seed start azimuth resample shortest",
-            "C2 0.4 0.03 1.5 5e-5 3 yes 0 14 90 yes no"), tmp_path)
+    shaken = row("house snow joint_damping scale dt duration until_collapse seed start azimuth resample shortest",
+                 "C2 0.4 0.03 1.5 5e-5 3 yes 0 14 90 yes no").task(tmp_path)
     assert shaken.options == RunOptions(
         house="C2", quake=True, snow=0.4, joint_damping=0.03, scale=1.5, dt=5e-5, duration=3.0, until_collapse=True,
         seed=0, start=14.0, azimuth=90.0, resample=True, no_frames=True)
-    assert task_of(row("house record snow", "A none 1"), tmp_path).options == RunOptions(
+    assert row("house record snow", "A none 1").task(tmp_path).options == RunOptions(
         house="A", snow=1.0, no_frames=True)
-    assert task_of(row("house", "A"), tmp_path).options == RunOptions(house="A", quake=True, no_frames=True)
+    assert row("house", "A").task(tmp_path).options == RunOptions(house="A", quake=True, no_frames=True)
 
 
 def test_paths_are_those_beside_the_table(row, tmp_path):
-    options = task_of(row("house record", "mine.yaml a.csv,b.csv"), tmp_path).options
+    options = row("house record", "mine.yaml a.csv,b.csv").task(tmp_path).options
     assert (options.house, options.record) == (str(
         tmp_path / "mine.yaml"), f"{tmp_path / 'a.csv'},{tmp_path / 'b.csv'}")
 
@@ -39,7 +37,7 @@ def test_paths_are_those_beside_the_table(row, tmp_path):
 def test_changed_houses_are_written(row, tmp_path):
     changed = row("house set braces strength", "B plumb.drift=0.002 main.brace1.EW.y0.3-4 0.5")
     check_rows([changed], tmp_path)
-    house = load_house(task_of(changed, tmp_path).options.house).data
+    house = load_house(changed.task(tmp_path).options.house).data
     assert house["plumb"]["drift"] == 0.002 and house["joint_types"]["corner_fitting"]["strength"] == 2940
     assert house["structures"]["main"]["braces"]["lines"][-1]["runs"] == [[3, 4]]
 

@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 from summaries import sample_summary
 from timber_houses.base.errors import RunError
-from timber_houses.run import identity, request_file
+from timber_houses.run import identity
 from timber_houses.run.identity import made_from
-from timber_houses.run.options import RunOptions, scripted
+from timber_houses.run.options import RunOptions, read_request, scripted, write_request
 from timber_houses.study import driver
 from timber_houses.study.driver import Task, run_missing
 
@@ -27,9 +27,10 @@ def fake(tmp_path, monkeypatch):
     (tmp_path / "fake.py").write_text("""import sys
 from pathlib import Path
 from summaries import sample_summary
-from timber_houses.run import identity, request_file
+from timber_houses.run import identity
+from timber_houses.run.options import read_request
 from timber_houses.study import driver
-options = request_file.read(Path(sys.argv[1]))
+options = read_request(Path(sys.argv[1]))
 if options.seed == 7:
     driver.note_fault(options.folder, 'no')
     sys.exit(1)
@@ -48,8 +49,8 @@ sample_summary(dt=options.dt, made_from=identity.made_from(options)).write(optio
 def test_a_request_keeps_all_that_decides(tmp_path, options):
     """To the last bit; what a study does not pass on has its default."""
     request = Task(tmp_path, replace(options, ensemble=4, jobs=2, report=True, export=Path("x"))).request()
-    request_file.write(request)
-    read = request_file.read(tmp_path)
+    write_request(request)
+    read = read_request(tmp_path)
     assert read == request and (read.shaken, read.decisive()) == (options.shaken, options.decisive())
     assert (read.folder, read.resume, read.no_frames) == (tmp_path, True, options.no_frames)
     assert (read.ensemble, read.jobs, read.report, read.export) == (None, None, False, None)

@@ -16,7 +16,7 @@ from summaries import sample_summary
 from timber_houses.base.errors import RunError
 from timber_houses.house import build_house, load_house
 from timber_houses.house.disturbance import LARGEST, disturb
-from timber_houses.pictures import bands, provenance
+from timber_houses.pictures import curves, provenance
 from timber_houses.recording import ensemble, frames
 from timber_houses.recording.history import History
 from timber_houses.recording.summary import Summary
@@ -24,7 +24,7 @@ from timber_houses.recording.summary_parts import Ensemble
 from timber_houses.run.identity import made_from
 from timber_houses.run.options import RunOptions, scripted
 from timber_houses.study import driver
-from timber_houses.study.ensemble import results, runs, statistics
+from timber_houses.study.ensemble import runs, statistics
 from timber_houses.text import japanese
 from timber_houses.text.english import sentence
 
@@ -231,7 +231,7 @@ def test_failed_runs_are_counted_and_end_in_an_error(finished, monkeypatch):
 
 def test_lines_for_the_terminal(finished):
     _, _, found = finished
-    lines = results.lines(results.content(found, {}), found[1])
+    lines = runs.lines(runs.content(found, {}), found[1])
     assert lines[1:3] == ["unsafe: 2 runs, 67 % (95 % confidence: 9 to 99 %)",
                           "collapsed: 1 run, 33 % (95 % confidence: 1 to 91 %)"]
     assert [line.split() for line in lines if line.startswith("collapse [s]")] == [[
@@ -242,7 +242,7 @@ def test_lines_for_the_terminal(finished):
 
 def test_wall_sheets_have_a_line_of_their_own():
     sheets = {k: summary(broken={"total": 1, "wall_sheets": k}) for k in (1, 2, 5)}
-    lines = results.lines(results.content(sheets, {}), sheets[1])
+    lines = runs.lines(runs.content(sheets, {}), sheets[1])
     assert [line.split()[:6] for line in lines if "wall" in line] == [["broken", "wall", "sheets", "2", "1", "to"]]
 
 
@@ -294,7 +294,7 @@ def histories():
 
 def test_bands_of_three_runs():
     """At 1 s the drifts are 1, 5 and 2, at 3 s 3, 9.95 and 6: the run that has ended keeps its last drift."""
-    found = bands.quantiles(histories(), np.array([1.0, 3.0]), 1, "ns")
+    found = curves.quantiles(histories(), np.array([1.0, 3.0]), 1, "ns")
     assert found == pytest.approx(np.array([[1, 1.5, 2, 3.5, 5], [3, 4.5, 6, 7.975, 9.95]]).T)
 
 
@@ -302,7 +302,7 @@ def test_page_of_bands():
     """A panel for each storey and direction; run 2 is the line."""
     recorded = sample()
     recorded.summary = recorded.summary.changed(**place())
-    figure = bands.page(recorded, dict(enumerate([recorded.history] * 3, 1)), 40)
+    figure = curves.bands(recorded, dict(enumerate([recorded.history] * 3, 1)), 40)
     assert len(figure.axes) == 2
     assert [text.get_text()
             for text in figure.legends[0].texts] == ["range", "middle half", "median", "run 2, which is shown"]

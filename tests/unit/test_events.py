@@ -8,14 +8,13 @@ import frames_sample
 import numpy as np
 import pytest
 from summaries import sample_summary
-from timber_houses.base.json_types import encode
+from timber_houses.base.json_types import decode, encode
 from timber_houses.recording.damage import DamageSurvey, Level, State
 from timber_houses.recording.events import ColumnsLost, Event, EventLog, OwnWeight, SnowFallen, StructureFallen
 from timber_houses.recording.judge import Judged
 from timber_houses.recording.summary import Summary
 from timber_houses.recording.summary_parts import Columns, JointCounts
 from timber_houses.recording.verdict import Structure, passed
-from timber_houses.recording.walls import count_apart
 from timber_houses.text.english import event, joint_place, own_weight, sentence
 
 ROOF = list(frames_sample.PARTS).index("roof")
@@ -85,7 +84,7 @@ def test_a_resumed_log_repeats_nothing():
     """Events known from a checkpoint are not noted again; a log that goes back forgets later ones."""
     run = frames_sample.run()
     once = events(run)
-    log = EventLog(survey(run), json.loads(json.dumps(encode(once))))
+    log = EventLog(survey(run), decode(list[Event], json.loads(json.dumps(encode(once)))))
     assert events(run, log) == once
     log.drop_after(2.42)
     assert log.sorted() == once[:1] and once[0].time_s < 2.42 < once[1].time_s
@@ -245,7 +244,7 @@ def test_wall_sheets_are_counted_apart():
     assert (counts.total, counts.wall_sheets, counts.wall_sheets_partly, counts.partly_broken) == (1, 1, 1, 0)
     assert "; 1 of 2 joints and 1 of 3 wall sheets broken, 1 partly" in sentence(
         sample_summary(joints=joints, broken=counts))
-    assert count_apart(run.joints, broken >= run.joints.springs) == ((1, 2), (1, 3))
+    assert run.joints.count_apart(broken >= run.joints.springs) == ((1, 2), (1, 3))
 
 
 def test_a_house_without_walls_has_no_wall_sheets():

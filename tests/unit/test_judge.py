@@ -8,7 +8,7 @@ import pytest
 from timber_houses.base.json_types import decode, encode
 from timber_houses.recording.damage import Level
 from timber_houses.recording.judge import Judge, Judged, at_columns, column_drifts
-from timber_houses.recording.samples import Samples
+from timber_houses.recording.history import Samples
 
 HEIGHTS = (2.0, 4.0)
 LEVELS = [*(Level("main", [k], [1.0], height) for k, height in enumerate(HEIGHTS)), Level("carport", [2], [1.0], 2.5)]

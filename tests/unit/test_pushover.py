@@ -9,7 +9,7 @@ from timber_houses.house import build_house, diagnose, load_house
 from timber_houses.base.gravity import GRAVITY
 from timber_houses.house.pushover import pushover, secant_periods
 from timber_houses.house.wall_types import envelope
-from timber_houses.pictures.pushover import figure
+from timber_houses.pictures import report_pictures
 from timber_houses.recording.summary_parts import Components, Mode
 from timber_houses.text.english import mode_name
 
@@ -70,13 +70,13 @@ def test_braces_pull():
 
 def test_figure_of_the_storeys(tmp_path):
     main = diagnose(build_house(load_house(write(tmp_path, "l", house_file("L", L_WALLS)))))["structures"]["main"]
-    drawn = figure("main", main)
+    drawn = report_pictures.pushover("main", main)
     assert [axis.get_title(loc="left")[:14] for axis in drawn.axes] == ["main, storey 1", "main, storey 2"]
     side = main["storeys"]["1"]["directions"]["ew"]
     assert side["demand_kn"] == pytest.approx(1.96 * side["required_quantity_m"], abs=2e-3)
     assert [line.get_ydata()[0] for line in drawn.axes[0].lines if line.get_linestyle() == "--"] == [side["demand_kn"]]
     bare = diagnose(build_house(load_house(write(tmp_path, "bare", house_file("L")))))["structures"]["main"]
-    assert figure("main", bare) is None
+    assert report_pictures.pushover("main", bare) is None
 
 
 def test_a_coupled_mode_has_both_directions():

@@ -42,10 +42,10 @@ def main_town(argv=None):
 
 def main_requested(folder):
     """Complete the run that a study requests in a folder; a fault of it is noted there."""
-    from ..run import request_file
+    from ..run.options import read_request
     from ..study import driver
 
-    _launch(lambda *_: request_file.read(folder).check(), None, lambda fault: driver.note_fault(folder, fault))
+    _launch(lambda *_: read_request(folder).check(), None, lambda fault: driver.note_fault(folder, fault))
 
 
 def _launch(read, argv, note=lambda fault: None):
@@ -90,9 +90,9 @@ def _run(session, prompt, scenario, options):
         if options.ensemble is not None:
             return _ensemble(session, scenario, options)
         if options.report:
-            from ..study import other_walls
+            from ..study import probe
 
-            scenario.other_walls = other_walls.run(options, scenario.description.data)
+            scenario.other_walls = probe.with_other_walls(options, scenario.description.data)
     except KeyboardInterrupt:
         _leave("stopped; the same command continues", 128 + signal.SIGINT)
     if options.town or not prompt:

@@ -68,7 +68,7 @@ def write(folder, path=None, pdf=False, views=True, page=False):
 
 def _pages(stills, folder):
     """(name, function that draws the figure) of each page. folder: of the run"""
-    from . import bands, curves, quantities, sheets, views
+    from . import curves, quantities, sheets, views
 
     recorded = stills.frames
     yield END, partial(stills.both_views, -1, sheets.END_DPI)
@@ -79,4 +79,4 @@ def _pages(stills, folder):
         if recorded.peaks is not None:
             yield QUANTITIES, partial(quantities.page, recorded, quantities.DPI)
         if ensemble.has_runs(folder):
-            yield BANDS, partial(bands.page, recorded, ensemble.histories(folder), bands.DPI)
+            yield BANDS, partial(curves.bands, recorded, ensemble.histories(folder), curves.DPI)

@@ -6,7 +6,6 @@ from PIL import Image, ImageDraw, ImageFont
 
 from ..base import colors
 from ..recording.damage import DamageSurvey, State
-from ..recording.walls import count_apart
 from ..text.english import DRIFT_LINES, broken_of, ratio
 from . import fonts
 from .figures import known_letters
@@ -81,7 +80,7 @@ class Caption:
         state = State(*(np.asarray(values[frame]) for values in (run.position, run.orientation, run.broken)))
         fallen = self.survey.fallen_columns(state)
         broken = run.joint_states(frame) == "broken"
-        parts = [broken_of(*count_apart(run.joints, broken))] if broken.any() else []
+        parts = [broken_of(*run.joints.count_apart(broken))] if broken.any() else []
         if fallen.any():
             return ", ".join([f"{fallen.sum()} of {len(fallen)} columns fallen", *parts])
         if self.drifts is not None:

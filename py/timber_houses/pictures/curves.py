@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""One page of curves of a run: ground motion, storey drifts, broken joints, energy balance."""
+"""One page of curves of a run: ground motion, storey drifts, broken joints, energy balance. One page of an ensemble:
+storey drifts as bands, with the run that is shown as a line."""
 from itertools import cycle
 
 import numpy as np
@@ -7,13 +8,11 @@ from yade_timber.energy_terms import DISSIPATED, ELASTIC
 
 from ..base import colors
 from ..recording.verdict import TILT
-from ..recording.walls import of_walls, sheet_states
-from ..text.english import DRIFT_LINES
-from .figures import A4, drawable, footer, heading, heading_height, new_figure
+from ..text.english import DRIFT_LINES, direction_name
+from .figures import A4, default_style, drawable, footer, heading, heading_height, new_figure
 from .key_times import first_shown, last_shown
 from .provenance import provenance
 from .sheets import result
-from .style import default_style
 
 DPI = 200
 DRIFT_RANGE = 0.16
@@ -31,6 +30,9 @@ DISSIPATION = dict(zip(DISSIPATED, (
     ("contacts lost\nunder load", colors.PURPLE), ("joint dashpots", colors.INDIGO), ("yielding joints", colors.GREY)),
     strict=True))
 """{dissipated term: (label, colour)}"""
+QUANTILES = (0.0, 0.25, 0.5, 0.75, 1.0)
+LEGEND_HEIGHT = 0.42
+"""Of the legend of bands and of the labels of events above the axes. [inch]"""
 
 
 @default_style()
@@ -116,8 +118,8 @@ def draw_levels(axis, largest):
 def draw_breaks(axis, frames, states):
     """Numbers of joints broken during the run by kind, of broken wall sheets, of partly broken ones. states (F, J)"""
     kinds = np.array(frames.joints.kind)
-    sheets = sheet_states(frames.joints, states == "broken")
-    for kind in dict.fromkeys(kinds[~of_walls(frames.joints)]):
+    sheets = frames.joints.sheet_states(states == "broken")
+    for kind in dict.fromkeys(kinds[~frames.joints.of_walls]):
         broken = (states[:, kinds == kind] == "broken").sum(1)
         name = drawable(kind.replace("_", "-"), 20)
         axis.step(frames.time, broken, where="post", lw=1.3, color=JOINT_KINDS.get(kind, colors.GREY), label=name)
@@ -146,3 +148,49 @@ def draw_energy(axis, history):
                    loc="left")
     label(axis, "energy [kJ]")
     legend(axis)
+
+
+# --- ensembles --------------------------------------------------------------------------------------------------------
+
+
+@default_style()
+def bands(frames, histories, dpi):
+    """Figure of an ensemble. frames: of the run that is shown; histories: {number: History} of all runs"""
+    time = max((history.time for history in histories.values()), key=lambda time: time[-1])  # runs may end early
+    shown = frames.history
+    drifts = shown.drifts()
+    figure = new_figure(*A4, dpi)
+    axes = list(figure.subplots(len(drifts), 1, sharex=True, squeeze=False)[:, 0])
+    head = heading_height(A4[0], result(frames)) + LEGEND_HEIGHT
+    figure.subplots_adjust(left=0.11, right=0.84, top=1 - head / A4[1], bottom=0.06, hspace=0.12)
+    for axis, (storey, direction, curve) in zip(axes, drifts):
+        draw_band(axis, time, quantiles(histories.values(), time, storey, direction))
+        axis.plot(shown.time, curve, color="black", lw=0.8, label=f"run {frames.summary.ensemble.run}, which is shown")
+        label(axis, f"drift {direction_name(direction)}, storey {storey} [-]")
+    draw_events(axes, frames.summary)
+    axes[-1].set_xlim(first_shown(frames), time[-1])
+    axes[-1].set_xlabel("time [s]", fontsize=9)
+    handles, names = axes[0].get_legend_handles_labels()
+    figure.legend(handles, names, loc="upper left", bbox_to_anchor=(0.1, 1 - (head - LEGEND_HEIGHT + 0.02) / A4[1]),
+                  ncols=4, frameon=False, fontsize=8)
+    figure.align_ylabels()
+    heading(figure, f"{frames.title}. {len(histories)} runs", result(frames))
+    footer(figure, provenance(frames))
+    return figure
+
+
+def quantiles(histories, time, storey, direction):
+    """(5, F) QUANTILES of a drift over the runs at times (F,) [s]; a run that has ended keeps its last drift. [-]"""
+    values = [np.interp(time, history.time, history.drift(storey, direction)) for history in histories]
+    return np.quantile(values, QUANTILES, axis=0)
+
+
+def draw_band(axis, time, values):
+    """Range, middle half and median of a drift, with the drift levels within reach of them. values: (5, F) [-]"""
+    low, quarter, middle, three_quarters, high = values
+    axis.fill_between(time, low, high, color=colors.SKY_BLUE, alpha=0.35, lw=0, label="range")
+    axis.fill_between(time, quarter, three_quarters, color=colors.BLUE, alpha=0.45, lw=0, label="middle half")
+    axis.plot(time, middle, color=colors.ORANGE, lw=0.7, label="median")
+    draw_levels(axis, np.abs(values).max())
+    axis.grid(alpha=0.25)
+    axis.tick_params(labelsize=8)

@@ -9,11 +9,10 @@ from matplotlib.patches import Ellipse, Patch, Polygon, Rectangle
 from ..base import colors
 from ..house import weigh
 from ..house.weight import sentence
-from .figures import A4, TITLE_PAD, Panel, heading, new_figure, save, stem_and_endings
+from .figures import A4, TITLE_PAD, Panel, default_style, heading, new_figure, save, stem_and_endings
 from .panels import plates_as_built
 from .raster import Window, even_density, front_of, shade
 from .report_pictures import THICK, wedge
-from .style import default_style
 from .views import (FRONT, INK, SIDE, WALL_NAMES, Snapshot, Solid, View, box_of, draw_ends, draw_view, kind_entries,
                     wall_entries, wall_solids)
 

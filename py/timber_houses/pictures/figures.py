@@ -18,7 +18,7 @@ from PIL import Image
 from ..base.atomic_write import written_whole
 from ..text.english import LONGEST_TEXT, cut_line
 from . import fonts
-from .style import default_style
+from .fonts import default_style
 
 A4 = (8.27, 11.69)
 """Short and long side. [inch]"""

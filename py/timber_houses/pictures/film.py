@@ -6,7 +6,7 @@ The pictures come from the renderer of the sheets. Recorded from the player in h
 processor (SwiftShader), a picture of 1280 x 800 takes seconds; here one of 1920 x 1080 takes 0.1 s.
 """
 import subprocess
-import threading
+import tempfile
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -128,31 +128,29 @@ def _write_mp4(path, images, form, _count):
               "-")
     even = ("-vf", "crop=trunc(iw/2)*2:trunc(ih/2)*2:0:0")  # of yuv420p
     command = ["ffmpeg", "-v", "error", "-y", *source, *even, *ENCODING, str(path)]
-    try:
-        process = subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE,
-                                   restore_signals=False)  # a limit of the file's size is an error that ffmpeg reports
-    except FileNotFoundError:
-        raise RunError("a film in MP4 needs ffmpeg: install the package ffmpeg, or choose a name that ends in"
-                       " .webp") from None
-    said = []
-    listener = threading.Thread(target=lambda: said.append(process.stderr.read()))
-    listener.start()
-    try:
-        for image in images:
-            process.stdin.write(image.tobytes("raw", "RGBX"))
-        for _ in range(round(HOLD * form.rate)):
-            process.stdin.write(image.tobytes("raw", "RGBX"))
-        process.stdin.close()
-    except BrokenPipeError:
-        pass
-    except BaseException:
-        process.kill()
-        raise
-    finally:
-        status = process.wait()
-        listener.join()
+    with tempfile.TemporaryFile() as said:
+        try:
+            process = subprocess.Popen(command, stdin=subprocess.PIPE, stderr=said,
+                                       restore_signals=False)  # a limit of the file's size: ffmpeg reports the error
+        except FileNotFoundError:
+            raise RunError("a film in MP4 needs ffmpeg: install the package ffmpeg, or choose a name that ends in"
+                           " .webp") from None
+        try:
+            for image in images:
+                process.stdin.write(image.tobytes("raw", "RGBX"))
+            for _ in range(round(HOLD * form.rate)):
+                process.stdin.write(image.tobytes("raw", "RGBX"))
+            process.stdin.close()
+        except BrokenPipeError:
+            pass
+        except BaseException:
+            process.kill()
+            raise
+        finally:
+            status = process.wait()
+        said.seek(0)
+        words = " ".join(said.read().decode(errors="replace").split())[-300:]
     if status:
-        words = " ".join(said[0].decode(errors="replace").split())[-300:]
         raise RunError(f"ffmpeg: {words or f'exit status {status}'}")
 
 

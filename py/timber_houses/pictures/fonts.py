@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Fonts of all pictures: matplotlib's own, and one with Chinese and Japanese letters where it is installed."""
+"""Settings and fonts of all pictures: matplotlib's own, whatever a user's matplotlibrc or session says, and a font with
+Chinese and Japanese letters where it is installed."""
 import sys
+from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 
 import matplotlib
 from matplotlib import font_manager
 from matplotlib.ft2font import FT2Font
+from matplotlib.style.core import STYLE_BLACKLIST
 
-from .style import default_style
-
+SETTINGS = {"pdf.fonttype": 42, "ps.fonttype": 42}
+"""TrueType fonts in PDF files: Type 3 fonts cannot be searched or edited, and journals refuse them."""
 OWN = "DejaVu Sans"
 EAST_ASIAN = ("IPAexGothic", "IPAPGothic", "IPAGothic", "TakaoPGothic", "TakaoGothic", "VL PGothic", "VL Gothic",
               "Noto Sans CJK JP", "WenQuanYi Zen Hei")
@@ -19,6 +22,16 @@ FILES = ("ipa", "takao", "vl-", "notosanscjk", "wqy")
 """How their files' names begin."""
 _missed: set = set()
 _used: set = set()
+
+
+@contextmanager
+def default_style():
+    """matplotlib's defaults and SETTINGS within; the user's settings come back. Also a decorator: it stands on every
+    function that makes, measures or saves a figure."""
+    with matplotlib.rc_context():
+        defaults = {key: value for key, value in matplotlib.rcParamsDefault.items() if key not in STYLE_BLACKLIST}
+        dict.update(matplotlib.rcParams, defaults | SETTINGS)  # values that matplotlib has validated
+        yield
 
 
 @cache

@@ -6,8 +6,7 @@ from matplotlib.ticker import FuncFormatter
 from ..base.colors import DIRECTIONS
 from ..motion import GAL, constant_note, displacement, pga, pgv, response_spectrum, shaking_window, velocity
 from ..motion.measures import stated_intensity
-from .figures import A4, heading, heading_height, new_figure, save, stem_and_endings
-from .style import default_style
+from .figures import A4, default_style, heading, heading_height, new_figure, save, stem_and_endings
 
 DPI = 150
 LEGEND_HEIGHT = 0.32

@@ -33,10 +33,10 @@ def pack(info, arrays):
     return base64.b64encode(zlib.compress(b"".join(parts), LEVEL)).decode()
 
 
-def times(values):
-    """(values, step) of increasing times [s] for `pack`."""
+def time_step(values):
+    """Step of increasing times [s] for `pack`."""
     last = values[-1] if len(values) else 0.0
-    return values, TIME_STEP if last < LARGEST * TIME_STEP else 10.0 ** math.ceil(math.log10(last / LARGEST) + 1e-9)
+    return TIME_STEP if last < LARGEST * TIME_STEP else 10.0 ** math.ceil(math.log10(last / LARGEST) + 1e-9)
 
 
 def planes(name, values, step):

@@ -10,7 +10,6 @@ from functools import cache, lru_cache
 import numpy as np
 
 from ..recording.record import rotated
-from ..recording.walls import of_walls, sheet_states
 
 THICKNESS, LAYER = 0.02, 0.03
 """Of a plate; distance between the middles of plates of one bay. [m]"""
@@ -81,13 +80,13 @@ def plates_as_built(model):
 
 def states(frames, frame):
     """State of each sheet in a frame."""
-    return sheet_states(frames.joints, frames.joint_states(frame) != "whole")
+    return frames.joints.sheet_states(frames.joint_states(frame) != "whole")
 
 
 def mark_anchors(frames):
     """((J,) bodies, (J, 3) places in their frames [m]) of the marks of joints: those of a sheet are on its plate."""
     e, j = frames.elements, frames.joints
-    body, anchor, halves = np.array(j.a), np.array(j.anchor, float), of_walls(j)
+    body, anchor, halves = np.array(j.a), np.array(j.anchor, float), j.of_walls
     places = np.array([_place(corners, *MARKS[opening]) for _, _, corners, opening in _bays(frames)]).reshape(-1, 3)
     sheet = np.asarray(j.sheet)[halves]
     body[halves] = low = np.asarray(frames.sheets.low)[sheet]
@@ -101,7 +100,7 @@ def marks(frames, anchors, frame, position, orientation):
     anchors: from `mark_anchors`; position, orientation: of the elements
     """
     state, j = frames.joint_states(frame), frames.joints
-    walls = np.flatnonzero(of_walls(j))
+    walls = np.flatnonzero(j.of_walls)
     first = walls[np.unique(np.asarray(j.sheet)[walls], return_index=True)[1]]
     of_sheets = np.where(state[first] == "before", "before", states(frames, frame))
     state[walls] = "whole"

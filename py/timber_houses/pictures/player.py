@@ -2,8 +2,8 @@
 """The player: one HTML file that plays a recorded run, or two runs side by side in step. Needs no YADE, the page no
 network.
 
-Positions are stored in steps of POSITION_STEP, orientations in steps of ORIENTATION_STEP: a centroid is off by at most
-0.44 mm, an orientation by at most 0.004 degrees. Between two frames the page interpolates (linear, slerp).
+Numbers are stored in STEPS: a centroid is off by at most 0.44 mm, an orientation by at most 0.004 degrees. Between two
+frames the page interpolates (linear, slerp).
 
 Security: a run's data are base64 text; the page shows its texts as text nodes only. The content-security policy of the
 page permits its own script and style, by their hashes, and nothing else.
@@ -22,19 +22,17 @@ from ..base.html import DATA, html
 from ..recording.events import Event, LevelPassed, ShakingBegins, StrongestShaking
 from ..recording.record import rotated
 from ..recording.summary import Summary, collapse_time
-from ..recording.walls import wall_sheets
 from ..text import english, japanese
 from ..text.english import cut_line
 from .key_times import FIRST_DAMAGE, STRONGEST, first_shown, named, onset, strongest_shaking
-from .packing import pack, times
+from .packing import pack, time_step
 from .panels import mark_anchors, plates
 from .provenance import provenance
 
 POLICY = "default-src 'none'; script-src '{script}'; style-src '{style}'; base-uri 'none'; form-action 'none'"
-POSITION_STEP = 0.5e-3
-"""Of positions of elements. [m]"""
-ORIENTATION_STEP = 1 / 32767
-"""Of the components of quaternions. [-]"""
+STEPS = {"vertices": 1e-4, "plate_vertices": 1e-4, "anchor": 1e-4, "positions": 0.5e-3, "orientations": 1 / 32767,
+         "loads": 0.01, "drifts": 1e-5, "acceleration": 1e-3, "displacement": 1e-4}
+"""Of arrays [m], of orientations, loads and drifts [-], of accelerations [m/s2]; others have whole numbers."""
 
 
 def make(runs, path):
@@ -97,7 +95,7 @@ def info(run):
                       **({"uplift": lifted[k]} if k in lifted else {})}
                      for k, (name, kind, group, storey) in enumerate(zip(e.name, e.kind, e.group, e.storey))],
         "joints": len(j.name),
-        "sheets": wall_sheets(j),
+        "sheets": j.wall_sheets(),
         "sheet_colors": {state: to_hex(color) for state, color in colors.SHEETS.items() if len(run.sheets.type)},
         "plates": [{"body": plate.body, "sheet": plate.sheet, "torn": plate.torn} for plate in plates(run)],
         "joint_list": [
@@ -203,30 +201,23 @@ def passed_levels(run):
 
 def arrays(run):
     """{name: (values, step)} for the page; a row is a time, vertex, face, joint or sample."""
-    shapes = {name: (values, 1e-4 if name == "vertices" else 1)
-              for name, values in flat_shapes(run.elements.vertices, run.elements.faces).items()}
-    return {**shapes, **sheathing(run), **joints(run), **series(run), **curves(run)}
-
-
-def sheathing(run):
-    """Shapes of the plates of wall sheets, as those of elements."""
-    shown = plates(run)
-    shaped = flat_shapes([plate.vertices for plate in shown], [plate.faces for plate in shown]) if shown else {}
-    return {f"plate_{name}": (values, 1e-4 if name == "vertices" else 1) for name, values in shaped.items()}
-
-
-def joints(run):
-    table, (body, anchor) = run.joints, mark_anchors(run)
-    return {"a": (table.a, 1), "b": (table.b, 1), "body": (body, 1),
-            "strength": (np.where(np.isfinite(table.strength), np.minimum(table.strength, 1e9), 0), 1),
-            "anchor": (anchor, 1e-4), "springs": (table.springs, 1), "damaged": (table.damaged, 1)}
-
-
-def series(run):
-    orientation = continuous(np.asarray(run.orientation, float))
-    return {"time": times(run.time), "positions": (run.position, POSITION_STEP),
-            "orientations": (orientation[..., [1, 2, 3, 0]], ORIENTATION_STEP),
-            "loads": (np.minimum(run.load, 1.5), 0.01), "broken": (run.broken, 1)}
+    e, j, motion, shown, (body, anchor) = run.elements, run.joints, run.motion, plates(run), mark_anchors(run)
+    sheathing = flat_shapes([plate.vertices for plate in shown], [plate.faces for plate in shown]) if shown else {}
+    storey_drifts = [values for _, _, values in drifts(run)]
+    values = {
+        **flat_shapes(e.vertices, e.faces), **{f"plate_{name}": part for name, part in sheathing.items()},
+        "a": j.a, "b": j.b, "body": body,
+        "strength": np.where(np.isfinite(j.strength), np.minimum(j.strength, 1e9), 0), "anchor": anchor,
+        "springs": j.springs, "damaged": j.damaged,
+        "time": run.time, "positions": run.position,
+        "orientations": continuous(np.asarray(run.orientation, float))[..., [1, 2, 3, 0]],
+        "loads": np.minimum(run.load, 1.5), "broken": run.broken,
+        "history_time": run.history.time if storey_drifts else np.empty(0),
+        "drifts": np.clip(np.transpose(storey_drifts), -10, 10) if storey_drifts else np.empty((0, 0)),
+        **({"acceleration": motion.acceleration, "displacement": motion.displacement} if motion else {}),
+    }
+    steps = STEPS | {name: time_step(values[name]) for name in ("time", "history_time")}
+    return {name: (part, steps.get(name, 1)) for name, part in values.items()}
 
 
 def continuous(orientation):
@@ -239,12 +230,3 @@ def continuous(orientation):
 def drifts(run):
     """[(storey, direction, (F,) drift)] of a run with a history, else empty."""
     return run.history.drifts() if run.history and run.history.samples else []
-
-
-def curves(run):
-    storey_drifts = drifts(run)
-    time = run.history.time if storey_drifts else np.empty(0)
-    values = np.transpose([values for _, _, values in storey_drifts]) if storey_drifts else np.empty((0, 0))
-    motion = ({"acceleration": (run.motion.acceleration, 1e-3), "displacement": (run.motion.displacement, 1e-4)}
-              if run.motion else {})
-    return {"history_time": times(time), "drifts": (np.clip(values, -10, 10), 1e-5), **motion}

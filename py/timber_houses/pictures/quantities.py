@@ -8,8 +8,7 @@ from ..recording.history import DIRECTIONS
 from ..recording.quantities import BAND_TEXT
 from ..text.english import direction_name, mode_name, period_text, ratio, sentence
 from ..text.lines import before
-from .figures import A4, drawable, fitting_size, heading, heading_height, new_figure
-from .style import default_style
+from .figures import A4, default_style, drawable, fitting_size, heading, heading_height, new_figure
 
 DPI = 150
 TITLE_SIZE = 8.5

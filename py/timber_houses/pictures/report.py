@@ -22,7 +22,7 @@ from ..recording import verdict
 from ..recording.failures import first_failures, place
 from ..text.english import counted, directed, mode_name, period_text, sentence, storey_name
 from ..text.lines import before, lines
-from . import REPORT, VERDICTS, pushover, quantities, report_pictures
+from . import REPORT, VERDICTS, quantities, report_pictures
 from .figures import image_of, png
 from .sheets import Stills
 
@@ -32,19 +32,6 @@ JOINTS_SHOWN = 6
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 PATIENCE = 120.0
 """Longest wait for the browser. [s]"""
-CAVEATS = (
-    "Members are rigid: they neither bend nor split; only joints and contacts deform.",
-    ("Snow steadies a braced house in this model, since its weight holds the floors down on the braces. In practice"
-     " snow adds to the earthquake load and houses under snow fare worse. Do not conclude that snow is good for a"
-     " house."),
-    ("Once a house rocks, single numbers scatter by a factor of up to 2.5 between equal runs. Compare houses under"
-     " several motions."),
-    ("Strengths, friction and stiffnesses are those of the house file, some of them assumptions. The report certifies"
-     " no house; ask an engineer."),
-)
-"""Limits of the model that a reader of one result must know (docs/limits.md)."""
-LIGHT = 1.5
-"""Weight per floor area below which a house is lighter than real ones. [kN/m2]"""
 
 
 def write(folder, stills=None):
@@ -91,9 +78,8 @@ def page(stills):
         others=others(frames) if failures else None,
         joints=joints(frames),
         at_strength=at_strength(frames),
-        limits="; ".join(f"{limit.text} ({limit.source})" for limit in (*verdict.LIMITS, verdict.LOSS)),
-        caveats=caveats(summary),
-        versions=versions(summary),
+        limits=(*verdict.LIMITS, verdict.LOSS),
+        summary=summary,
         command=command(summary.made_from["options"]),
     )
 
@@ -109,7 +95,7 @@ def pushover_picture(summary):
     """Pushover curves of the main structure; None without walls and braces, or in an earlier run's summary."""
     name = next(iter(summary.structures))
     structure = summary.diagnosis.structures.get(name)
-    drawn = structure and pushover.figure(name, structure)
+    drawn = structure and report_pictures.pushover(name, structure)
     return picture(drawn) if drawn else None
 
 
@@ -230,21 +216,6 @@ def joint_name(name):
     first, _, second = name.partition("|")
     second = second.removeprefix(f"{first.partition('.')[0]}.")
     return f"{first} | {second}" if second else first
-
-
-def caveats(summary):
-    per_area = summary.weight.per_floor_area_kn_m2
-    if per_area is None or per_area >= LIGHT:
-        return list(CAVEATS)
-    return [f"The house without snow weighs {per_area:.1f} kN per m² of floor. Real houses with tiles, walls and live"
-            " load weigh 2.5 to 3 kN per m².", *CAVEATS]
-
-
-def versions(summary):
-    """Versions of the run's programs and files, and its time step."""
-    versions, origin = summary.versions, summary.made_from
-    return (f"yade-timber {versions.package}, YADE {versions.yade}, package {origin['package']}, files"
-            f" {origin['files']}; time step {summary.dt:g} s.")
 
 
 def command(options):

@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Pictures of the report: plans of the house, the motion with its spectrum, key times of the run."""
+"""Pictures of the report: plans of the house, pushover curves, the motion with its spectrum, key times of the run."""
 import numpy as np
 from matplotlib.patches import Polygon, Rectangle
 
 from ..base import colors
 from ..motion import GAL, response_spectrum
 from ..recording.history import DIRECTIONS
-from ..text.english import direction_name
-from .figures import heading_height, new_figure
+from ..recording.verdict import DAMAGE, SAFETY, TILT
+from ..text.english import direction_name, ratio
+from .figures import default_style, heading_height, new_figure
 from .key_times import first_shown, last_shown
 from .sheets import Format, result
-from .style import default_style
 from .views import FRONT, SIDE
 
 DPI = 170
@@ -21,6 +21,10 @@ EDGE = 0.3
 """Between the outermost columns and the edge of a plan. [m]"""
 THICK = 0.11
 """Columns at least this thick are black in the plan. [m]"""
+PANEL = 2.3, 1.9
+"""Of one storey. [inch]"""
+TICKS = SAFETY.drift, 2 * SAFETY.drift, TILT.drift
+"""Drifts. [-]"""
 
 
 @default_style()
@@ -88,6 +92,34 @@ def wedge(corners):
     along = (head - foot) / max(np.linalg.norm(head - foot), 1e-9)
     aside = 0.11 * np.array([-along[1], along[0]])
     return Polygon([foot, head + aside, head - aside], closed=True, facecolor=colors.BLUE, edgecolor="none", zorder=2)
+
+
+@default_style()
+def pushover(name, structure):
+    """Figure with the pushover curves of the storeys and the demand of the wall quantity's rule; None without walls and
+    braces. name: of the structure; structure: its part of `diagnosis`"""
+    storeys = {storey: table["directions"] for storey, table in structure["storeys"].items()
+               if any(side.get("pushover") for side in table["directions"].values())}
+    if not storeys:
+        return None
+    drawn = new_figure(PANEL[0] * len(storeys), PANEL[1], DPI)
+    for axis, (storey, sides) in zip(drawn.subplots(1, len(storeys), squeeze=False)[0], storeys.items()):
+        for direction, side in sides.items():
+            drifts, shears = zip(*side["pushover"] or [(0.0, 0.0)])
+            color = colors.DIRECTIONS[direction]
+            axis.plot(drifts, shears, color=color, lw=1, label=direction_name(direction))
+        rule = next(iter(sides.values()))
+        if rule["required_quantity_m"]:
+            axis.axhline(rule["demand_kn"], color="#555555", lw=0.8, ls="--", label="required by the rule")
+        axis.set(xlim=0, ylim=0)
+        axis.set_xticks([0, *TICKS], ["0", *map(ratio, TICKS)])
+        axis.axvline(DAMAGE.drift, color="#999999", lw=0.6, ls=":")
+        axis.set_title(f"{name}, storey {storey}: shear [kN] over drift", fontsize=6.5, loc="left", pad=2, y=1)
+        axis.tick_params(labelsize=6, pad=1.5, length=2)
+        axis.grid(alpha=0.25)
+        axis.legend(fontsize=6, frameon=False, handlelength=1.2)
+    drawn.subplots_adjust(left=0.3 / len(storeys) / PANEL[0], right=0.98, top=0.9, bottom=0.12, wspace=0.22)
+    return drawn
 
 
 @default_style()

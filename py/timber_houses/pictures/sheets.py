@@ -6,12 +6,11 @@ from functools import cache, partial
 from ..base import colors
 from ..text.english import sentence
 from . import key_times
-from .figures import (A4, MARGIN, POINT_LETTERS, TITLE_PAD, Panel, drawable, fitting_size, footer, heading,
-                      heading_height, new_figure)
+from .figures import (A4, MARGIN, POINT_LETTERS, TITLE_PAD, Panel, default_style, drawable, fitting_size, footer,
+                      heading, heading_height, new_figure)
 from .panels import mark_anchors, marks, placed_plates, plates, states
 from .provenance import provenance
 from .raster import Window, even_density, front_of
-from .style import default_style
 from .views import (INK, MARK_SIZE, VIEWS, Snapshot, Solid, box_of, draw_ends, draw_view, legend, scale_bar,
                     silhouette, wall_solids)
 

@@ -8,9 +8,8 @@ from ..base.atomic_write import write_text
 from ..base.html import html
 from ..text import english, japanese
 from . import OWNER, PAGE, VERDICTS
-from .figures import drawable, footer, heading, heading_height, new_figure
+from .figures import default_style, drawable, footer, heading, heading_height, new_figure
 from .provenance import provenance
-from .style import default_style
 
 WIDTH, TALLEST, FOOT, DPI = 10.0, 10.0, 0.45, 130
 """Of the picture: width, largest height of the map, height below it [inch], resolution [1/inch]."""

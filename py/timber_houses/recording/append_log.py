@@ -1,16 +1,22 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A file to which an unfinished run appends its samples at each checkpoint, so that the bytes written grow with the
-result. Needs no YADE.
+"""Files to which an unfinished run appends its samples and frames at each checkpoint, so that the bytes written grow
+with the result, and logs of users' scenes (`yt.record`), of unknown origin. Needs no YADE.
 
-Its records are entries of `yade_timber.log`; the first one has the fingerprint of the run's identity."""
+Their records are entries of `yade_timber.log`; the first one has the fingerprint of the run's identity."""
+import json
 import os
 import zlib
 
 import numpy as np
-from yade_timber.log import CHECKSUM, FIELDS, RUN, packed
+from yade_timber.log import CHECKSUM, CONTACTS, FIELDS, FRAME, OWN_SCENE, RUN, SCENE, packed
 
 from ..base.errors import RunError
-from ..base.record_file import open_record, record
+from ..base.json_types import require
+from ..base.record_file import MAX_JSON, open_record, record
+from .table_file import KINDS
+
+FRAMES_LOG = "frames.log"  # of a run, beside its frames.h5
+WITHOUT = {"group", "storey", "side", "sheet"}  # tables of a frames.h5 that the description of a scene does not have
 
 
 class AppendLog:
@@ -82,3 +88,90 @@ def _complete(file):
         if left < 0 or (zlib.crc32(content, zlib.crc32(fields)),) != CHECKSUM.unpack(checksum):
             return
         yield kind, time, content
+
+
+def frame_type(frames):
+    """Data type of a frame: the content of its record, and the types of the file's tables."""
+    n, j = len(frames.elements.name), len(frames.joints.name)
+    return np.dtype([("position", "f4", (n, 3)), ("orientation", "f4", (n, 4)), ("load", "f4", (j,)),
+                     ("broken", "u1", (j,))])
+
+
+def series(frames):
+    """The frames as arrays of the file's types; without frames their shapes hold the numbers of elements and joints."""
+    types = {"time": np.dtype("f8"), **{name: kind for name, (kind, _) in frame_type(frames).fields.items()}}
+    return {name: np.asarray(getattr(frames, name), kind.base).reshape(len(frames.time), *kind.shape)
+            for name, kind in types.items()}
+
+
+def add_frames(frames, records):
+    """Append frames and contacts of an AppendLog's records to Frames. Raises ValueError for records of other sizes."""
+    form, parts = frame_type(frames), {FRAME: [], CONTACTS: []}
+    for kind, time, content in records:
+        parts[kind].append((time, content))
+    frames.time = [*frames.time, *(time for time, _ in parts[FRAME])]
+    added = [np.frombuffer(content, form).reshape(1)[0] for _, content in parts[FRAME]]
+    for name in form.names:
+        setattr(frames, name, [*getattr(frames, name), *(frame[name] for frame in added)])
+    for time, content in parts[CONTACTS]:
+        words = np.frombuffer(content, "i4").reshape(8, -1).ravel()
+        pair, position, force = np.split(words, np.array([2, 5]) * len(words) // 8)
+        values = time, pair.reshape(-1, 2), position.view("f4").reshape(-1, 3), force.view("f4").reshape(-1, 3)
+        for name, value in zip(("time", "pair", "position", "force"), values):
+            getattr(frames.contacts, name).append(value)
+    vars(frames).update(series(frames))
+
+
+def log_frames(log, frames):
+    """Add records of all frames and contacts of Frames to an AppendLog, in the order of time."""
+    names = frame_type(frames).names
+    added = [(time, FRAME, [getattr(frames, name)[k] for name in names]) for k, time in enumerate(frames.time)]
+    c = frames.contacts
+    added += [(time, CONTACTS, arrays) for time, *arrays in zip(c.time, c.pair, c.position, c.force)]
+    for time, kind, arrays in sorted(added, key=lambda record: record[0]):
+        log.add(kind, time, *arrays)
+
+
+def read_scene(path, layout):
+    """(title, elements, joints, records): {table: values} and the further records of the log. layout: of a frames.h5.
+    Raises RunError, or an error of json or numpy, for other logs."""
+    records = read(path, OWN_SCENE)
+    try:
+        kind, _, content = next(records, (b"", 0.0, b""))
+    except RunError as problem:
+        raise RunError(f"{problem}; an unfinished run is shown from its frames.h5") from None
+    if kind != SCENE or len(content) > MAX_JSON:
+        raise ValueError("no description of the scene")
+    scene = require(json.loads(content), dict, "scene")
+    if scene.keys() != {"title", "elements", "joints"}:
+        raise ValueError("scene: unknown or missing entries")
+    elements, joints = (_tables(require(scene[name], dict, name), layout[name].tables, name)
+                        for name in ("elements", "joints"))
+    return require(scene["title"], str, "title"), elements, joints, records
+
+
+def _tables(values, layout, group):
+    """{table: array, or list of texts} of lists from JSON. layout: as of table_file.Group. Raises ValueError."""
+    if values.keys() != layout.keys() - WITHOUT:
+        raise ValueError(f"{group}: unknown or missing tables")
+    lengths: dict[str, int] = {}
+    for name, column in values.items():
+        kind, length, *width = layout[name]
+        count = len(require(column, list, f"{group}/{name}"))
+        if lengths.setdefault(length, count) != count:
+            raise ValueError(f"{group}/{name}: {count} entries instead of {lengths[length]}")
+        if kind != "text":
+            values[name] = _numbers(column, kind, width, f"{group}/{name}")
+        elif not all(isinstance(entry, str) for entry in column):
+            raise ValueError(f"{group}/{name}: no texts")
+    return values
+
+
+def _numbers(column, kind, width, place):
+    """Array of a list of numbers, or of rows of a width. Raises ValueError; only strengths may be infinite."""
+    table = np.array(column) if column else np.empty((0, *width), int if kind == "whole" else float)
+    if table.shape != (len(column), *width) or column and table.dtype.kind not in KINDS[kind]:
+        raise ValueError(f"{place}: no {kind}s in rows of {width or 1}")
+    if np.isnan(table).any() or np.isinf(table).any() and place != "joints/strength":
+        raise ValueError(f"{place}: a number that is not finite")
+    return table

@@ -14,7 +14,6 @@ import numpy as np
 from .record import Elements, Joints, placed, rotated
 from .summary_parts import Broken, Columns, JointCounts
 from .verdict import FALLEN_ANGLE, Structure
-from .walls import of_walls, sheet_states
 
 SIDES = ("north", "south", "east", "west", "inside")
 SNOW_DROP = 1.0
@@ -62,7 +61,6 @@ class DamageSurvey:
         e, j = self.elements, self.joints
         self.structures = list(dict.fromkeys(level.structure for level in self.levels))
         """Names of the structures, the main one first."""
-        self._of_walls = of_walls(j)
         self._columns = np.array([k for k, kind in enumerate(e.kind) if kind == "column"], int)
         self._upright = _vertical(e.orientation[self._columns])
         self._loose_at_start = self.loose_columns(State(e.position, e.orientation, np.where(j.damaged, j.springs, 0)))
@@ -72,11 +70,11 @@ class DamageSurvey:
         chosen = np.ones(len(self.joints.kind), bool) if chosen is None else chosen
         kinds = Counter(kind for kind, counts in zip(self.joints.kind, chosen) if counts)
         main = {kind: kinds.pop(kind, 0) for kind in ("column_beam", "brace_beam")}
-        return JointCounts(total=int((chosen & ~self._of_walls).sum()), **main, others=dict(kinds))
+        return JointCounts(total=int((chosen & ~self.joints.of_walls).sum()), **main, others=dict(kinds))
 
     def count_all(self):
         """JointCounts of all joints and wall sheets: the part `joints` of the summary."""
-        return replace(self.count_joints(), wall_sheets=len(sheet_states(self.joints, self._of_walls)) or None)
+        return replace(self.count_joints(), wall_sheets=len(self.joints.sheet_states(self.joints.of_walls)) or None)
 
     def _broken_joints(self, state):
         """((J,) bool: broken, (J,) bool: partly broken), without those broken before the start."""
@@ -87,9 +85,9 @@ class DamageSurvey:
         """The part `broken`. springs: number that broke. A joint of two sides counts for both."""
         (broken, partly), storey = self._broken_joints(state), np.array(self.joints.storey)
         on_side = {side: np.array([side in sides.split("+") for sides in self.joints.side], bool) for side in SIDES}
-        counted = broken & ~self._of_walls
+        counted = broken & ~self.joints.of_walls
         in_storey = {name: storey == name for name in dict.fromkeys(self.joints.storey)}
-        sheets = sheet_states(self.joints, broken)
+        sheets = self.joints.sheet_states(broken)
         gone, partly_gone = (int((sheets == state).sum()) for state in ("broken", "partly"))
         return Broken(
             **vars(self.count_joints(broken)) | {"wall_sheets": gone if len(sheets) else None},

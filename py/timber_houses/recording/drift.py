@@ -36,7 +36,7 @@ def last_periods(time, values):
     """Slice of the samples of the last whole periods, None when there is no whole period."""
     for window in WINDOWS:
         first = start_of(time, window)
-        crossings = np.array([first + k for k in upward_crossings(values[first:])], int)
+        crossings = first + upward_crossings(values[first:])
         if len(crossings) > 1 and time[-1] - time[crossings[-1]] < RECENT * np.diff(time[crossings]).max():
             enough = np.flatnonzero(time[crossings[-1]] - time[crossings[:-1]] >= AVERAGED)
             return slice(crossings[enough[-1] if len(enough) else 0], crossings[-1])
@@ -51,21 +51,13 @@ def start_of(time, window):
 
 
 def upward_crossings(values):
-    """Samples that pass the mean upwards, after an excursion below it by HYSTERESIS of half the range."""
+    """(n,) samples that pass the mean upwards, after an excursion below it by HYSTERESIS of half the range."""
     centred = values - values.mean()
-    threshold = HYSTERESIS * np.ptp(values) / 2
-    crossings, last, below = [], None, False
-    for k, value in enumerate(centred.tolist()):
-        if value < -threshold:
-            below = True
-        if value < 0:
-            last = None
-        elif below and last is None:
-            last = k
-        if below and last is not None and value > threshold:
-            crossings.append(last)
-            below = False
-    return crossings
+    beyond = np.flatnonzero(np.abs(centred) > HYSTERESIS * np.ptp(values) / 2)
+    below = centred[beyond] < 0
+    returns = beyond[1:][below[:-1] & ~below[1:]]  # first samples above, after excursions below
+    negative = np.flatnonzero(centred < 0)
+    return negative[np.searchsorted(negative, returns) - 1] + 1
 
 
 def still_moving(amplitudes):

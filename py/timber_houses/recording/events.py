@@ -7,7 +7,7 @@ in the last frame before it; ColumnsLost, SnowFallen: at the end of the frame in
 ShakingBegins, StrongestShaking, LevelPassed: of the player, not recorded."""
 from dataclasses import dataclass, field, make_dataclass
 
-from ..base.json_types import decode, encode, require
+from ..base.json_types import decode, require
 from .verdict import Structure
 
 
@@ -97,17 +97,13 @@ class Event:
 
 
 class EventLog:
-    """Events of a run so far. survey: DamageSurvey of its house; events: those known already, as `encoded`."""
+    """Events of a run so far. survey: DamageSurvey of its house; events: those known already."""
 
     def __init__(self, survey, events=()):
-        self.survey = survey
-        self.events = decode(list[Event], list(events), "events")
+        self.survey, self.events = survey, list(events)
 
     def sorted(self):
         return sorted(self.events, key=lambda event: event.time_s)
-
-    def encoded(self):
-        return encode(self.sorted())
 
     def add(self, time, facts):
         """Note an event at a time [s], unless it is known."""

@@ -33,7 +33,7 @@ attributes   format, title (house and loads), scenario, model, version (of the p
 /breaks      of an ended run: time [s], joint, spring, cause, force [N]; one entry for each spring that broke
 
 Frames are recorded FRAMES_PER_SECOND times per simulated second from t = 0, and at the last step. Until the run has
-ended, the frames and contacts up to its last checkpoint are in frames.log beside the file (frame_log.py), which `load`
+ended, the frames and contacts up to its last checkpoint are in frames.log beside the file (append_log.py), which `load`
 reads, too. It also reads the log of a user's scene (`yt.record`)."""
 import io
 import json
@@ -47,7 +47,7 @@ from ..base.atomic_write import write_bytes
 from ..base.errors import RunError
 from ..base.json_types import encode
 from ..base.time_step import rest_stride
-from . import append_log, frame_log, scene_log
+from . import append_log
 from .history import History
 from .quantities import Storeys
 from .record import Contacts, Elements, Frames, Joints, Motion, Sheets
@@ -115,7 +115,7 @@ def save(path, frames):
         _save_group(file.create_group("elements"), plain | shapes)
         _save_group(file.create_group("joints"), vars(frames.joints))
         _save_group(file.create_group("sheets"), vars(frames.sheets))
-        _save_group(file.create_group("frames"), frame_log.series(frames))
+        _save_group(file.create_group("frames"), append_log.series(frames))
         contacts, widths = frames.contacts, {"pair": ("i4", 2), "position": ("f4", 3), "force": ("f4", 3)}
         flat = {name: np.concatenate([np.empty((0, width), kind), *getattr(contacts, name)])
                 for name, (kind, width) in widths.items()}
@@ -162,17 +162,17 @@ def _load_run(path, missing):
             raise RunError(f"{path}: no recorded frames ({FORMAT})")
         loaded = _load(file)
     if loaded.summary is None:
-        frame_log.add_frames(loaded, append_log.read(Path(path).with_name(frame_log.NAME), loaded.run))
+        append_log.add_frames(loaded, append_log.read(Path(path).with_name(append_log.FRAMES_LOG), loaded.run))
     return loaded
 
 
 def _load_scene(path):
     """Frames of a log of `yt.record`; its elements are one structure without storeys, its joints on no side."""
-    title, elements, joints, records = scene_log.read(path, LAYOUT)
+    title, elements, joints, records = append_log.read_scene(path, LAYOUT)
     elements |= {"group": ["main"] * len(elements["name"]), "storey": np.zeros(len(elements["name"]), "i4")}
     joints |= {name: [""] * len(joints["name"]) for name in ("storey", "side")}
     loaded = Frames(title, "", "", "", _elements(elements), Joints(**joints))
-    frame_log.add_frames(loaded, records)
+    append_log.add_frames(loaded, records)
     return loaded
 
 

@@ -9,8 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .history import DIRECTIONS
-from .samples import NORTH_EAST, drifts
+from .history import DIRECTIONS, NORTH_EAST, drifts
 from .verdict import FALL, FALLEN_ANGLE, TILT
 
 

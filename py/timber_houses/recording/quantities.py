@@ -8,8 +8,7 @@ with a positive drift. Shears are means over a sample interval (0.01 s), acceler
 band BAND shows: members that hit each other give peaks of a few ms, of any height."""
 import numpy as np
 
-from .history import DIRECTIONS
-from .series import Series
+from .history import DIRECTIONS, Series
 
 NAME = "storeys.csv"
 SUSTAINED = 0.1  # time over which a sustained shear is averaged. [s]

@@ -38,7 +38,7 @@ class Elements(_ShortRepr):
 
 @dataclass(repr=False)
 class Joints(_ShortRepr):
-    """As in /joints."""
+    """As in /joints. A wall sheet has two joints of one spring each; it is broken when both are, partly when one is."""
 
     name: list
     kind: list
@@ -60,6 +60,32 @@ class Joints(_ShortRepr):
         broken = np.asarray(broken)
         state = np.where(broken == 0, "whole", np.where(broken >= self.springs, "broken", "partly"))
         return np.where(self.damaged, "before", state)
+
+    @property
+    def of_walls(self):
+        """(J,) bool: joints that are halves of wall sheets."""
+        return np.asarray(self.sheet) >= 0
+
+    def wall_sheets(self):
+        """[[numbers of the joints]] of each wall sheet."""
+        sheets = [[] for _ in range(int(np.max(self.sheet, initial=-1)) + 1)]
+        for k in np.flatnonzero(self.of_walls):
+            sheets[self.sheet[k]].append(int(k))
+        return sheets
+
+    def sheet_states(self, broken):
+        """(..., S) 'broken', 'partly' or 'whole' for each wall sheet. broken: (..., J) bool"""
+        halves = np.flatnonzero(self.of_walls)
+        sheet = np.asarray(self.sheet)[halves]
+        number = np.bincount(sheet)
+        gone = np.zeros((*broken.shape[:-1], len(number)), int)
+        np.add.at(gone, (..., sheet), broken[..., halves])
+        return np.select([gone == number, gone > 0], ["broken", "partly"], "whole")
+
+    def count_apart(self, broken):
+        """((broken, all) of the joints without walls, (broken, all) of the wall sheets). broken: (J,) bool"""
+        sheets, other = self.sheet_states(broken), ~self.of_walls
+        return (int((broken & other).sum()), int(other.sum())), (int((sheets == "broken").sum()), len(sheets))
 
 
 @dataclass(repr=False)

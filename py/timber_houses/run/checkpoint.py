@@ -2,8 +2,8 @@
 """The state of a run on disk, from which it can be resumed: YADE's own saved scene with one line appended.
 
 The last line is JSON: `identity` of the run, `progress` (wall time, events so far), `sha256` of all bytes before that
-line. YADE's loader stops before it, so the file also opens with `O.load`. Once the run has ended, its samples
-(samples.py) stand before that line. The binary format keeps every bit of every number.
+line. YADE's loader stops before it, so the file also opens with `O.load`. The binary format keeps every bit of every
+number. The samples before the checkpoint are in SAMPLES beside it and, once the run has ended, before that line.
 
 YADE's loader creates whatever object the file names, also a PyRunner, which runs code. The binary format names each
 such class, with its namespace, before the first object of it; a file that names other classes than a run writes is
@@ -17,19 +17,23 @@ import resource
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
 import yade.wrapper as yw
 from yade_timber import _class_names
 
-from ..base.atomic_write import write_bytes
+from ..base.atomic_write import remove, write_bytes
 from ..base.errors import RunError, os_errors
 from ..base.files import written_from_memory
-from ..base.json_types import decode
-from ..base.record_file import record
+from ..base.json_types import decode, encode
+from ..base.record_file import MAX_SIZE, read_record, record
+from ..recording.append_log import AppendLog
 from ..recording.events import Event
+from ..recording.history import Samples
 from ..recording.judge import Judged
 from ..recording.summary_parts import ModesAt
 
-NAME = "checkpoint.yade"
+NAME, SAMPLES = "checkpoint.yade", "samples.log"
+ROWS = b"V"  # kind of the records of SAMPLES: rows of the Sampler, float64
 REMEDY = "run without --resume to start anew"
 
 
@@ -52,10 +56,11 @@ O = yw.Omega()
 
 
 def save(path, identity, progress):
-    """Save the scene, whole or not at all. identity: see identity.py; progress: what `load` returns. Raises OSError."""
+    """Save the scene, whole or not at all. identity: see identity.py; progress: Progress. Raises OSError."""
     with written_from_memory(path) as memory:
         _save(memory)
-        seal = {"identity": identity, "progress": progress, "sha256": hashlib.sha256(memory.read_bytes()).hexdigest()}
+        seal = {"identity": identity, "progress": encode(progress),
+                "sha256": hashlib.sha256(memory.read_bytes()).hexdigest()}
         with open(memory, "ab") as file:
             file.write(b"\n" + json.dumps(seal).encode())
 
@@ -79,8 +84,8 @@ def enclose(path, content):
 
 
 def load(path, identity, kind=dict):
-    """Load the saved scene; returns `progress` as saved, and the enclosed samples or b"". kind: of progress, as of
-    json_types. Raises RunError for damage or another identity."""
+    """Load the saved scene; returns its progress, and the enclosed samples or b"". kind: of progress, as of json_types.
+    Raises RunError for damage or another identity."""
     body, samples, seal = _read(path, kind)
     for key in sorted(seal["identity"].keys() | identity.keys()):
         there, here = seal["identity"].get(key), identity.get(key)
@@ -113,10 +118,49 @@ def _read(path, kind=dict):
         content, _, line = content.rpartition(b"\n")
         seal = json.loads(line)
         complete = hashlib.sha256(content).hexdigest() == seal["sha256"] and isinstance(seal["identity"], dict)
-        decode(kind, seal["progress"])
+        seal["progress"] = decode(kind, seal["progress"])
         end = len(content) - seal.get("enclosed", 0)
     except (ValueError, KeyError, TypeError, RecursionError):
         complete = False
     if not complete:
         raise RunError(f"{path}: damaged, or not a checkpoint of this package; {REMEDY}")
     return content[:end], content[end:], seal
+
+
+class SampleFile:
+    """The file SAMPLES of the loaded run. run: fingerprint of the run's identity"""
+
+    def __init__(self, path, run):
+        self.log = AppendLog(path, run)
+
+    def save(self, observer):
+        """Move an Observer's rows to the file; returns the file's size. Raises OSError."""
+        self.log.add(ROWS, O.time, *observer.fresh)
+        observer.fresh = []
+        return self.log.flush()
+
+    def all(self, observer):
+        """Samples of the run, those of its Observer included; none that were taken before an earlier state was loaded.
+        """
+        rows = [np.frombuffer(content) for _, _, content in self.log.records()]
+        samples = Samples(observer.columns, np.concatenate([*rows, *map(np.ravel, observer.fresh), []]))
+        next_times = np.append(samples.time[1:], np.inf)
+        return samples._replace(rows=samples.rows[samples.time < np.minimum.accumulate(next_times[::-1])[::-1]])
+
+    def enclose(self, path, observer):
+        """Move the file into the checkpoint at that path; the Observer has all rows then. Raises OSError, RunError."""
+        if self.log.path.exists():
+            enclose(path, read_record(self.log.path, limit=MAX_SIZE))
+            observer.fresh = [self.all(observer).rows]
+            remove(self.log.path)
+
+    def resume(self, size, enclosed, remedy):
+        """Drop rows after the present time. size: of the file at the checkpoint, whose content may be enclosed there.
+        Raises OSError, RunError."""
+        if enclosed:
+            write_bytes(self.log.path, enclosed)
+        if self.log.cut(O.time + O.dt / 2) != size:
+            raise RunError(f"{self.log.path}: missing, damaged or older than the checkpoint at {O.time:g} s; {remedy}")
+        for kind, time, content in self.log.records():
+            if kind != ROWS or len(content) % np.dtype(float).itemsize:
+                raise RunError(f"{self.log.path}: no samples at {time:g} s; {remedy}")

@@ -13,14 +13,12 @@ from yade_timber.plugin import compiled
 from yade_timber.scene import record
 from yade_timber.scene.engines import find_engine
 
-from ..base.json_types import decode, encode
 from ..recording import frames
 from ..recording.damage import SIDES, DamageSurvey, Level, State
 from ..recording.events import Collapse, EventLog, FirstBreak, OwnWeight, StructureFallen, Tilt
-from ..recording.history import DIRECTIONS
-from ..recording.judge import Judge, Judged
+from ..recording.history import DIRECTIONS, Samples
+from ..recording.judge import Judge
 from ..recording.quantities import AXES
-from ..recording.samples import Samples
 from ..recording.summary_parts import Mode, ModesAt
 from ..recording.verdict import UNDAMAGED
 from ..scene.modes import natural_modes
@@ -150,29 +148,28 @@ def modes_now(levels):
 
 
 class Observer:
-    """Notes events, drifts of structures and first natural modes of the run. progress: of a checkpoint"""
+    """Notes events, drifts of structures and first natural modes of the run. progress: checkpoint.Progress"""
 
     def __init__(self, model, progress=None):
         self.model = model
         self.survey = DamageSurvey(describe_elements(model), describe_joints(model), describe_levels(model))
-        self.log = EventLog(self.survey, progress["events"] if progress else ())
-        judged = decode(dict[str, Judged], progress["judged"]) if progress else None
+        self.log = EventLog(self.survey, progress.events if progress else ())
         self.sampled = [(e.group, e.storey) for e in sampled_columns(model)]
-        self.judge = Judge(self.survey.levels, self.sampled, judged)
+        self.judge = Judge(self.survey.levels, self.sampled, progress and progress.judged)
         self.columns = tuple(find_engine(yw.Sampler).columns())
         self.fresh = []  # [(n, W) arrays]: rows of the Sampler that are in no file yet
         self._past = [(O.time, pickle.dumps(self.judge.structures))]
-        self.modes = decode(ModesAt | None, progress["modes"]) if progress else None
-        self.upright = progress["upright"] if progress else (0.0, [])  # time [s], as of largest_so_far
+        self.modes = progress and progress.modes
+        self.upright = progress.upright if progress else (0.0, [])  # time [s], as of largest_so_far
         self.motion = describe_motion()
         self.shaking = self.motion and self.motion.first(HARMFUL)
         self.spent = self.motion.last(SPENT) if self.motion else 0.0
-        self.at_rest = progress["at_rest"] if progress else None  # since when the wreck is [s]
+        self.at_rest = progress and progress.at_rest  # since when the wreck is [s]
 
     def progress(self):
-        """What a checkpoint must hold besides the scene: the argument `progress`."""
-        return {"events": self.log.encoded(), "judged": encode(self.judge.structures), "modes": encode(self.modes),
-                "upright": (self.upright[0], np.asarray(self.upright[1]).tolist()), "at_rest": self.at_rest}
+        """What a checkpoint must hold of it: entries of checkpoint.Progress."""
+        return {"events": self.log.sorted(), "judged": self.judge.structures, "modes": self.modes,
+                "upright": [self.upright[0], np.asarray(self.upright[1]).tolist()], "at_rest": self.at_rest}
 
     def read_samples(self):
         """Take the samples since the last call out of the scene, and judge them."""

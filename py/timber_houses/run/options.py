@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""All options of a run: command line, `th.run`, batches, towns and the identity of a run follow from them."""
+"""All options of a run: command line, `th.run`, batches, towns and the identity of a run follow from them. A process of
+a study takes those of its run from request.json in the folder."""
+import json
 from dataclasses import dataclass, field
 from pathlib import Path
 from shlex import quote
 from typing import Callable
 
+from ..base.atomic_write import write_text
 from ..base.errors import RunError, one_line
-from ..base.options import command_option, is_given, option, options
+from ..base.options import command_option, is_given, option, options, read_keywords
+from ..base.record_file import read_record
 from ..base.time_step import DEFAULT_DT, MAX_DT, MAX_DURATION, MIN_DT
 from ..house import LEVELS, shipped_houses
 from ..house.disturbance import LARGEST
@@ -14,6 +18,7 @@ from ..house.layout import MAX_SNOW
 from ..motion import GroundMotion, MotionRequest
 from .identity import of_arrays, of_values
 
+REQUEST = "request.json"
 SNOW_DEPTH = 1.0  # snow on the roof of the snow runs. [m] (paper, section 3.4)
 QUIET_DURATION = 30.0  # simulated time of runs without an earthquake. [s] (paper, section 4.2)
 MOST_RUNS = 999  # largest number of runs of an ensemble
@@ -158,3 +163,16 @@ def scripted(name, house, earthquake=False, snow=False, **more):
     """Options of a run script. name: of the script; earthquake, snow: whether there are; more: further options"""
     return RunOptions(name=name, house=str(house), quake=earthquake, snow=SNOW_DEPTH if snow else 0.0, source=SCRIPT,
                       **more)
+
+
+def write_request(request):
+    """Write the options of a run, a RunOptions without a ground motion from Python, into its folder. Raises OSError."""
+    given = {name: getattr(request, name) for name in options(RunOptions) if is_given(request, name)}
+    write_text(request.folder / REQUEST, json.dumps({"name": request.name, **given}, default=str, indent=1) + "\n")
+
+
+def read_request(folder):
+    """RunOptions of the request in a folder. Raises RunError."""
+    given = json.loads(read_record(folder / REQUEST))
+    name = given.pop("name")
+    return RunOptions(name=name, source=SCRIPT if name else OptionSource(), **read_keywords(RunOptions, REQUEST, given))

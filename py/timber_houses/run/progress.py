@@ -6,7 +6,6 @@ from time import time as time_now
 from tqdm import tqdm
 from yade_timber.scene import record
 
-from ..recording.walls import count_apart
 from ..text import english
 
 BAR = "{desc} {percentage:3.0f}%|{bar}| {n:.2f}/{total:.2f} s [{elapsed}, {remaining} left{postfix}]"
@@ -31,7 +30,7 @@ class Status:
         described = self.log.survey.joints
         broken = described.states(record.joint_loads()[1][:len(described.name)]) == "broken"
         peak = max(self.judge.main.peak, default=0.0)
-        joints, sheets = count_apart(described, broken)
+        joints, sheets = described.count_apart(broken)
         return f"drift {english.ratio(peak)}, {english.broken_of(joints, sheets, of='/')}"
 
 

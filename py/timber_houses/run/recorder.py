@@ -4,14 +4,15 @@ from dataclasses import replace
 
 import numpy as np
 import yade.wrapper as yw
+from yade_timber.log import CONTACTS, FRAME
 from yade_timber.scene import record
 from yade_timber.scene.engines import find_engine
 
 from ..base.atomic_write import remove
 from ..base.errors import RunError
 from ..motion import GroundMotion, displacement
-from ..recording import frame_log, frames
-from ..recording.append_log import AppendLog
+from ..recording import frames
+from ..recording.append_log import FRAMES_LOG, AppendLog, add_frames, log_frames
 from . import observer
 
 REMEDY = "continue with --no-frames, or run without --resume to start anew"
@@ -28,7 +29,7 @@ class Recorder:
             motion.displacement = displacement(GroundMotion(motion.dt, motion.acceleration))
         self.frames = frames.Frames(title, scenario.name, model.name, version, elements, joints,
                                     motion=motion, run=run, sheets=observer.describe_sheets(model))
-        self.model, self.path, self.log, self.times = model, path, AppendLog(path.with_name(frame_log.NAME), run), []
+        self.model, self.path, self.log, self.times = model, path, AppendLog(path.with_name(FRAMES_LOG), run), []
         self.described = False  # whether the file holds elements and joints of this run
 
     def take(self, time, state, last=False):
@@ -38,9 +39,9 @@ class Recorder:
         if self.times and self.times[-1] > time - O.dt / 2:
             return
         self.times.append(time)
-        self.log.add(frame_log.FRAME, time, state.position, state.orientation, state.load, state.broken)
+        self.log.add(FRAME, time, state.position, state.orientation, state.load, state.broken)
         if last or (len(self.times) - 1) % frames.CONTACT_EVERY == 0:
-            self.log.add(frame_log.CONTACTS, time, *record.contact_points())
+            self.log.add(CONTACTS, time, *record.contact_points())
 
     def _cut(self, time):
         self.log.cut(time + O.dt / 2)
@@ -55,7 +56,7 @@ class Recorder:
         self.described = earlier.summary is None
         if not self.described:  # the frames are in the file itself
             remove(self.log.path)
-            frame_log.log_frames(self.log, earlier)
+            log_frames(self.log, earlier)
         self._cut(O.time)
         if len(self.times) < expected:
             raise RunError(f"{self.path}: {len(self.times)} frames up to the checkpoint at {O.time:g} s, {expected} are"
@@ -78,7 +79,7 @@ class Recorder:
         whole = replace(self.frames, summary=summary, history=history, breaks=breaks,
                         contacts=frames.Contacts(), **tables.recorded(observer.element_numbers(self.model)))
         self.log.pending = list(self.log.records())
-        frame_log.add_frames(whole, self.log.pending)
+        add_frames(whole, self.log.pending)
         frames.save(self.path, whole)
         remove(self.log.path)
         self.described = False

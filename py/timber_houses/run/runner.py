@@ -12,19 +12,18 @@ from yade_timber.scene.export import export_scene
 from ..base.atomic_write import remove, written_whole
 from ..base.errors import RunError, os_errors
 from ..pictures import OWNER, REPORT, TOWN, all_pictures
-from ..recording import ensemble, frame_log, frames
+from ..recording import append_log, ensemble, frames
 from ..scene.scenario import build
 from ..text.english import house_name, loads, sentence
-from . import checkpoint, quantities, samples, summary
+from . import checkpoint, quantities, summary
 from .identity import identity, made_from, of_values
 from .observer import Observer
 from .progress import Bar, Status
 from .recorder import Recorder
-from .samples import SampleFile
 
 STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM)
 HOUSES = "houses.csv"  # table of a town's houses
-RECORDED, STATE = (frames.NAME, frame_log.NAME), (checkpoint.NAME, samples.NAME)
+RECORDED, STATE = (frames.NAME, append_log.FRAMES_LOG), (checkpoint.NAME, checkpoint.SAMPLES)
 """Files of the frames, and of what a resumed run continues from."""
 O = yw.Omega()
 
@@ -133,10 +132,10 @@ class Run(Stoppable):
         if O.iter >= self.steps:
             duration = f"{self.options.named('duration')} {self.scenario.duration:g}"
             raise RunError(f"{duration}: {self.checkpoint_path} is already at {O.time:g} s; give a longer duration")
-        self.wall_s, self.last_saved = saved["wall_s"], O.iter
+        self.wall_s, self.last_saved = saved.wall_s, O.iter
         self._observe(saved)
         with os_errors(lambda fault: f"{self.options.folder}: the run cannot be continued ({fault})"):
-            self.samples.resume(saved["samples"], rows, checkpoint.REMEDY)
+            self.samples.resume(saved.samples, rows, checkpoint.REMEDY)
             if self.recorder:
                 self.recorder.resume()
 
@@ -145,7 +144,7 @@ class Run(Stoppable):
         self.identity = identity(self.origin)
         self.observer = Observer(self.model, progress)
         run, folder = of_values(self.identity), self.options.folder
-        self.samples = SampleFile(folder / samples.NAME, run)
+        self.samples = checkpoint.SampleFile(folder / checkpoint.SAMPLES, run)
         titled = title(self.scenario, self.model)
         self.options.say(titled)
         self.recorder = (None if self.options.no_frames
@@ -225,7 +224,7 @@ class Run(Stoppable):
             if self.recorder:
                 self.recorder.save()
             self.observer.read_samples()
-            progress = {"wall_s": self.wall_s, "samples": self.samples.save(self.observer), **self.observer.progress()}
+            progress = checkpoint.Progress(self.wall_s, self.samples.save(self.observer), **self.observer.progress())
             checkpoint.save(self.checkpoint_path, self.identity, progress)
         self.last_saved = O.iter
 

@@ -2,7 +2,7 @@
 """Runs in YADE processes of their own, several at a time.
 
 A task is done when its folder holds a summary.json made from the same options, files and package. `run_missing` starts
-the other tasks: a process finds its options in request.json of the folder (run/request_file.py). An interrupted run
+the other tasks: a process finds its options in request.json of the folder (run/options.py). An interrupted run
 continues from its checkpoint. run.json records how a run ended; run.log holds its messages."""
 import json
 import os
@@ -25,9 +25,8 @@ from ..base.processors import processors
 from ..base.record_file import open_record, read_record
 from ..recording.summary import NAME as SUMMARY
 from ..recording.summary import Summary
-from ..run import request_file
 from ..run.identity import made_from
-from ..run.options import RunOptions
+from ..run.options import RunOptions, write_request
 from ..text.english import counted
 
 END, LOG = "run.json", "run.log"
@@ -164,7 +163,7 @@ class _Process:
             return
         for name in (END, SUMMARY):
             remove(task.folder / name)
-        request_file.write(task.request())
+        write_request(task.request())
         with open_record(task.folder / LOG, os.O_RDWR | os.O_CREAT | os.O_TRUNC) as log:
             self.child = subprocess.Popen([*command(ENTRY), str(task.folder)], stdin=subprocess.DEVNULL, stdout=log,
                                           stderr=log, start_new_session=True,

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""How long runs will take, from a second of strong shaking of the house that they are about."""
+"""Single runs, in YADE processes of their own: how long runs will take, from a second of strong shaking of the house
+that they are about; whether a house bears its own weight and snow; the verdict with walls of the other level."""
 import math
 import tempfile
 import time
@@ -7,13 +8,18 @@ import warnings
 from dataclasses import replace
 from pathlib import Path
 
+from ..base.errors import RunError
 from ..base.options import options as options_of
 from ..base.processors import processors
+from ..house import LEVELS, has_rated_walls
 from ..motion import MotionRequest, onset, trim, write_csv
-from ..text.english import counted
+from ..recording.summary_parts import OtherWalls
+from ..run.options import RunOptions
+from ..text.english import counted, sentence
 from .driver import Task, about, run_missing
 
 PART = 1.0  # part of the motion that is computed, about the time at which half of its energy has arrived. [s]
+SETTLING = 3.0  # simulated time without a motion: a sound house is at rest after 1 s, time at rest costs little. [s]
 FEW = 30.0  # simulated time of all runs, per run at a time, up to which none is computed. [s]
 
 
@@ -48,3 +54,27 @@ def _part(options, motion, folder):
     own = {name: each.default for name, each in options_of(MotionRequest).items()}
     own |= {"record": str(record), "scale": options.factor, "out": None, "duration": PART, "until_collapse": False}
     return replace(options, **own, no_frames=True)
+
+
+def check_own_weight(house, snow):
+    """The result of a short run without a motion, as a sentence. house: name or file; snow: depth [m] or None. Raises
+    RunError."""
+    with tempfile.TemporaryDirectory() as folder:
+        task = Task(Path(folder), RunOptions(house=str(house), snow=snow, duration=SETTLING, no_frames=True))
+        summary = run_missing([task], 1, lambda line: None)[task]
+        if summary is None:
+            raise RunError(task.error or "its run was stopped")
+        return sentence(summary)
+
+
+def with_other_walls(options, data):
+    """OtherWalls of the summary, for a report with both verdicts, from a run in the folder walls_LEVEL; None without
+    rated walls. data: of the house's Description. Raises RunError."""
+    if not has_rated_walls(data):
+        return None
+    (level,) = set(LEVELS) - {options.walls or data["law"]["wall_level"]}
+    task = Task(options.folder / f"walls_{level}", replace(options, walls=level, no_frames=True))
+    summary = run_missing([task], 1, options.say)[task]
+    if summary is None:
+        raise RunError(f"the run with walls of the level {level} has no results: {task.error or task.folder}")
+    return OtherWalls(level=level, verdict=summary.verdict, peak_drift=summary.peak_drift)

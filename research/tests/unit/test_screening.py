@@ -18,7 +18,6 @@ from timber_research.screening.responses import COUNT as NUMBER
 from timber_research.screening.responses import LOG, RESPONSES, SHARE
 from timber_houses.house import build_house, load_house
 from timber_houses.run.options import RunOptions
-from timber_houses.study.batch.tasks import task_of
 
 NAMES = [factor.name for factor in FACTORS]
 COUNT = len(FACTORS)
@@ -117,7 +116,7 @@ def test_plan_and_table(tmp_path):
                                                     for entry in planned} == {"seed3", "seed0", None}
     some = [entry for entry in planned if entry.cell == 5]
     cells.write_houses(some, tmp_path)
-    options = {(entry.run, entry.motion): task_of(entry.row(tmp_path), tmp_path).options for entry in some}
+    options = {(entry.run, entry.motion): entry.row(tmp_path).task(tmp_path).options for entry in some}
     house = str(tmp_path / "houses" / "c05" / "B1.yaml")
     assert options["modelB1_snow", "seed0"] == RunOptions(
         house=house, quake=True, snow=1.0, dt=4e-4, until_collapse=True, seed=0, start=15.0, end=29.0, no_frames=True)

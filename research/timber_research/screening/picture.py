@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from timber_houses.base.atomic_write import written_whole
 from timber_houses.base.colors import BLUE, GREY, ORANGE
-from timber_houses.pictures.style import default_style
+from timber_houses.pictures.fonts import default_style
 
 from .. import design
 from ..factors import FACTORS

@@ -1,5 +1,5 @@
 /*! yade-timber player, GPL-2.0-or-later; built from player/, see its README; do not edit.
-sources sha256 d7ecd15ca0c8da9811f786bf9e7dfbc71eaadfb475673015606faa5bc066f01b
+sources sha256 6819c62588b235e3451d9a957f9830a6c83f9529f8ca036f0b9722aaf49507ea
 Contains parts of three.js 0.187.0:
 The MIT License
 

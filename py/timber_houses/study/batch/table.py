@@ -12,11 +12,9 @@ from ...base.input_file import is_file, read_bytes
 from ...base.options import read
 from ...base.remedies import nearest
 from ...run.options import OptionSource, RunOptions
-from .row import DECISIVE, HOUSE_CHANGES, NO_EARTHQUAKE, BatchError, HouseChanges, Row
+from .rows import COLUMNS, HOUSE_CHANGES, NO_EARTHQUAKE, BatchError, HouseChanges, Row
 
 MAX_FILE_SIZE = 10_000_000  # [bytes]
-COLUMNS = {"house": DECISIVE["house"], **HOUSE_CHANGES, **DECISIVE}
-"""{column: option}, without the column `description`. A run has an earthquake unless its record is NO_EARTHQUAKE."""
 DESCRIPTION = "description"
 NOT_UTF8 = "not UTF-8 text; save it as UTF-8 (in a spreadsheet: CSV UTF-8)"
 MIXED = ("the first line has no commas, so blanks separate the columns: separate the names in it by commas, too, or the"

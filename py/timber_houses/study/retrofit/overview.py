@@ -16,7 +16,7 @@ HEADER = ("rank", "candidate", "description", "motions", "ratio", "collapses", "
 
 def table_text(results):
     """Text of retrofit.csv. results: of race.ranking"""
-    rows = [(rank, r.entry.candidate.name, r.entry.candidate.text, r.motions, r.ratio, r.collapses, r.house_collapses,
+    rows = [(rank, r.entry.candidate.name, r.entry.candidate.text, r.motions, r.ratio, *r.comparison.collapses,
              "" if r.p is None else r.p,
              "" if r.p is None else "collapses" if r.comparison.by_collapses else "drifts", r.words)
             for rank, r in enumerate(results, 1)]
@@ -49,7 +49,7 @@ def _row(result, house):
         "text": result.entry.candidate.text,
         "motions": result.motions,
         "ratio": f"{result.ratio:.2f}" if math.isfinite(result.ratio) else "-",
-        "collapses": f"{result.collapses} ({result.house_collapses})",
+        "collapses": "{} ({})".format(*result.comparison.collapses),
         "p": "-" if result.p is None else "< 0.001" if result.p < 1e-3 else f"{result.p:.3f}",
         "color": COLORS.get(result.words, "#444"),
         "result": result.words,

@@ -89,11 +89,15 @@ class Entry:
 
 @dataclass(frozen=True)
 class Comparison:
-    """A measure and the house as it is. differences (M,) of the responses; collapses, house_collapses (M,) bool."""
+    """A measure and the house as it is. differences (M,) of the responses; fallen (M, 2): whether each collapses."""
 
     differences: np.ndarray
-    collapses: np.ndarray
-    house_collapses: np.ndarray
+    fallen: np.ndarray
+
+    @property
+    def collapses(self):
+        """Numbers of motions under which the measure and the house as it is collapse."""
+        return self.fallen.sum(0).tolist()
 
     @property
     def mean(self):
@@ -106,21 +110,21 @@ class Comparison:
 
         Which of the two houses has is of no influence, so that this choice does not change how often equal houses are
         found different."""
-        return 2 * int((self.collapses | self.house_collapses).sum()) >= len(self.differences)
+        return 2 * int(self.fallen.any(1).sum()) >= len(self.differences)
 
     @property
     def p(self):
         """Two-sided p of a paired test: McNemar's of the collapses, or Wilcoxon's signed-rank test of the responses."""
         if self.by_collapses:
-            return exact_sign(int((self.collapses & ~self.house_collapses).sum()),
-                              int((self.house_collapses & ~self.collapses).sum()))
+            measure, house = self.fallen.T
+            return exact_sign(int((measure & ~house).sum()), int((house & ~measure).sum()))
         return signed_rank(self.differences)
 
     @property
     def is_better(self):
         """Direction of the difference that `p` belongs to."""
         if self.by_collapses:
-            return self.collapses.sum() < self.house_collapses.sum()
+            return self.collapses[0] < self.collapses[1]
         differences = _not_zero(self.differences)  # by the ranks that `signed_rank` compares
         return float(np.sign(differences) @ scipy.stats.rankdata(np.abs(differences))) < 0
 
@@ -131,7 +135,7 @@ def compare(entry, house, motions=None):
     pairs = [(entry.runs[motion], house.runs[motion]) for motion in both]
     differences = np.array([response(one) - response(other) for one, other in pairs])
     fallen = np.array([(bool(one["collapsed"]), bool(other["collapsed"])) for one, other in pairs], bool).reshape(-1, 2)
-    return Comparison(differences, *fallen.T)
+    return Comparison(differences, fallen)
 
 
 def select(entries, house, keep):
@@ -161,18 +165,10 @@ class Result:
         return len(self.comparison.differences)
 
     @property
-    def collapses(self):
-        return int(self.comparison.collapses.sum())
-
-    @property
-    def house_collapses(self):
-        return int(self.comparison.house_collapses.sum())
-
-    @property
     def why(self):
         """'collapses under 3 motions instead of 10', or 'median drift times 0.55'."""
         if self.comparison.by_collapses:
-            return f"collapses under {self.collapses} motions instead of {self.house_collapses}"
+            return "collapses under {} motions instead of {}".format(*self.comparison.collapses)
         return f"median drift times {self.ratio:.2f}"
 
 

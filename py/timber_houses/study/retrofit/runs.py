@@ -9,7 +9,6 @@ from ...base.processors import processors
 from ...run.options import RunOptions
 from ...text.english import counted
 from ..batch import Row, check_rows, run_rows, write_runs
-from ..batch.tasks import task_of
 from ..driver import about
 from ..probe import estimate
 from .candidates import AS_IT_IS
@@ -123,7 +122,7 @@ class Ranking:
 
     def task(self, entry, motion):
         """Task of a run of an Entry under a motion's name, for its folder."""
-        return task_of(self._row(entry.candidate, motion, dict(self.motions)[motion]), self.folder)
+        return self._row(entry.candidate, motion, dict(self.motions)[motion]).task(self.folder)
 
 
 def progress(runs, left, jobs):
