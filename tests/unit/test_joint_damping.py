@@ -52,13 +52,15 @@ def test_balance_of_a_rocking_column(sweeps):
 @pytest.mark.parametrize("ratio", [1e-4, 1e-2])
 def test_a_weak_dashpot_between_strong_contacts(ratio):
     """Its impulse, far below the solver's tolerance, is that of the velocities that the contacts leave: it never
-    returns energy, and dissipates in proportion to its ratio."""
-    def step_by_step(ratio):
+    returns energy, and dissipates as with a tolerance of 1e-9. Observed: 0.24 % more; 32 % less (ratio 1e-4) if changes
+    below the threshold of the sweeps are dropped.
+    """
+    def dissipated_by(**options):
         O.reset()
         O.bodies.append(yt.box((4, 4, 0.2), (0, 0, -0.1), fixed=True))
         O.bodies.append(yt.box((0.3, 0.3, 0.3), (0, 0, 0.15)))
         O.bodies.append(yt.box((1, 1, 0.3), (0, 0, 0.45)))
-        O.dt, O.engines = 5e-4, yt.engines()
+        O.dt, O.engines = 5e-4, yt.engines(**options)
         yt.connect(1, 2, [(x, y, 0.3) for x in (-0.1, 0.1) for y in (-0.1, 0.1)], stiffness=(1e6, 3e5),
                    strength=np.inf, damping_ratio=ratio)
         yt.set_velocity(2, (0.5, 0.2, 0), (0.1, 0.3, 0.5))
@@ -68,10 +70,9 @@ def test_a_weak_dashpot_between_strong_contacts(ratio):
             sums.append(forces.jointDashpot)
         return np.array(sums)
 
-    sums, reference = step_by_step(ratio), step_by_step(1e-5)
+    sums, exact = dissipated_by(), dissipated_by(tolerance=1e-9)
     assert np.diff(sums).min() >= 0
-    if ratio < 1e-3:  # the motion is the same
-        assert sums[-1] / ratio == pytest.approx(reference[-1] / 1e-5, rel=0.01)
+    assert sums[-1] == pytest.approx(exact[-1], rel=0.005)
 
 
 def test_without_contacts_the_column_swings_and_comes_to_rest():

@@ -23,7 +23,7 @@ from yade_timber.scene.engines import find_engine
 
 SHIFT = -1.0  # eigenvalues nearest to this are found first [1/s2]; below zero, since a wreck has many at zero
 SEARCHED = 40  # number of modes that are looked at. [-]
-PIVOT = 0.01  # smallest diagonal pivot over the largest entry of its column: the shifted matrix is symmetric. [-]
+PIVOT = 0.01  # smallest diagonal pivot over the largest entry of its column; an unstable scene may need others. [-]
 SLOWEST = 60.0
 """Longest period of a mode, and longest 2 pi / sqrt(-omega^2) of an unstable one [s]; slower motions are free.
 Observed: unbraced frames up to 4 s, rounding of free motions 1e8 s."""
