@@ -51,7 +51,7 @@ Polyhedron Polyhedron::fromVertices(const std::vector<Vec3>& points)
 	if (points.size() > maxVertices)
 		throw PolyhedronError("a polyhedron has at most " + std::to_string(maxVertices) + " vertices, got "
 		        + std::to_string(points.size())
-		        + ": the time of a contact grows with the third power of their number");
+		        + ": the time of a contact grows with the square of their number");
 	return convexHull(points);
 }
 

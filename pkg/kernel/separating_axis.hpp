@@ -7,7 +7,7 @@
 namespace timber {
 
 /// Largest gap between the cores over the candidate axes: all face normals, and the cross products of an edge of A and
-/// an edge of B.
+/// an edge of B that form a face of the Minkowski difference.
 /// > 0: the cores are separated by at least this distance; < 0: they overlap, and this is minus the penetration depth.
 /// [m] rotation, translation: x_A = rotation x_B + translation. axis (out): unit, from A to B, frame of A: the axis of
 /// the largest gap.

@@ -66,6 +66,36 @@ TEST(CoreGap, CrossedEdges)
 	}
 }
 
+/// Overlapping bodies: the gap along the normals and all cross products of edges is no larger.
+TEST(CoreGap, AllCrossProducts)
+{
+	Random random(84);
+	int overlapping = 0, ofEdges = 0;
+	for (int trial = 0; trial < 1000; ++trial) {
+		const Placed pair = randomPair(random, uniform(random, 0, 1));
+		Vec3 axis;
+		const double gap = pair.gap(axis);
+		if (gap >= 0) continue;
+		++overlapping;
+		double ofFaces = -1e9, largest = -1e9;
+		for (const Face& face : pair.a.faces)
+			ofFaces = std::max(ofFaces, pair.along(face.plane.normal));
+		for (const Face& face : pair.b.faces)
+			ofFaces = std::max(ofFaces, pair.along(-(pair.rotation * face.plane.normal)));
+		for (const Edge& ea : pair.a.edges)
+			for (const Edge& eb : pair.b.edges)
+				for (const double sign : { 1., -1. })
+					largest = std::max(largest,
+					        pair.along(sign
+					                * ea.direction.cross(pair.rotation * eb.direction)
+					                          .normalized()));
+		ofEdges += largest > ofFaces;
+		EXPECT_NEAR(gap, std::max(largest, ofFaces), rounding) << trial;
+	}
+	EXPECT_GT(overlapping, 300);
+	EXPECT_GT(ofEdges, 100);
+}
+
 /// Overlapping bodies: no random direction gives a larger gap (a smaller overlap).
 TEST(CoreGap, LeastOverlapOfAllDirections)
 {
