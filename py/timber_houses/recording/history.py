@@ -166,10 +166,10 @@ class Samples(Series):
         return History(["time [s]", *names, *self.columns[1:self.first]], table[np.isfinite(table).all(1)])
 
 
-def drifts(displacement, heights, lowest=0):
+def drifts(displacement, heights, stacked=True):
     """(F, L, 2) drifts of storeys, north-south and east-west [-]. displacement: (F, L, 3) of the levels from below [m];
-    heights: of the storeys [m]; lowest: numbers of the levels of storeys 1"""
+    heights: (L,) of the storeys [m]; stacked: (L - 1, 1) bool, whether a level is above the one before"""
     moved = displacement[:, :, NORTH_EAST]
-    steps = np.diff(moved, axis=1, prepend=0.0)
-    steps[:, lowest] = moved[:, lowest]
-    return steps / np.array(heights, float)[:, None]
+    steps = moved.copy()
+    np.subtract(moved[:, 1:], moved[:, :-1], out=steps[:, 1:], where=stacked)
+    return steps / np.asarray(heights, float)[:, None]

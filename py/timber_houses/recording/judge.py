@@ -39,7 +39,7 @@ class Judge:
         names = [level.structure for level in levels]
         self._levels = {name: slice(names.index(name), names.index(name) + names.count(name)) for name in names}
         self._heights = np.array([level.height for level in levels])
-        self._lowest = [chosen.start for chosen in self._levels.values()]
+        self._stacked = np.array([[above == below] for below, above in zip(names, names[1:])], bool).reshape(-1, 1)
         self._columns = np.full((len(levels), len(columns)), -1)  # of each level's storey; -1: no further one
         for name, chosen in self._levels.items():
             for level in range(chosen.start, chosen.stop):
@@ -61,15 +61,15 @@ class Judge:
         if not samples.samples:
             return
         moved = samples.displacement[:, :len(self._heights)]
-        drift, drop = drifts(moved, self._heights, self._lowest), -moved[:, :, 2] / self._heights
+        drift, drop = drifts(moved, self._heights, self._stacked), -moved[:, :, 2] / self._heights
         size = np.abs(drift)
-        peak, last = np.fmax.reduce(size, 0), np.where(np.isnan(drift[-1]), 0.0, drift[-1])
-        largest, median = column_drifts(at_columns(axes, self._columns))
+        last = np.where(np.isnan(drift[-1]), 0.0, drift[-1])
+        peaks = np.array([np.fmax.reduce(size, 0), *column_drifts(at_columns(axes, self._columns))])
         for name, judged in self.structures.items():
-            chosen = self._levels[name]
+            chosen, known = self._levels[name], [judged.peak, judged.column_peak, judged.median_peak]
             judged.drift = last[chosen].ravel().tolist()
-            for peaks, values in ((judged.peak, peak), (judged.column_peak, largest), (judged.median_peak, median)):
-                peaks[:] = np.fmax(peaks, values[chosen].ravel()).tolist()
+            raised = np.fmax(known, peaks[:, chosen].reshape(3, -1))
+            judged.peak, judged.column_peak, judged.median_peak = raised.tolist()
         if (size > TILT.drift).any() or (drop > FALL).any():
             for name, judged in self.structures.items():
                 self._note_fall(judged, samples.time, size[:, self._levels[name]], drop[:, self._levels[name]])
@@ -106,7 +106,8 @@ def column_drifts(drift):
     frames, levels, columns = drift.shape[:3]
     if not columns:
         return np.full((2, levels, 2), np.nan)
-    ordered, count = np.sort(drift, 2), np.isfinite(drift[..., 0]).sum(2)  # NaN behind; np.nanmedian is slower
-    frame, level = np.ogrid[:frames, :levels]
-    middle = ordered[frame, level, (count - 1) // 2] + ordered[frame, level, count // 2]  # NaN without a column
-    return np.fmax.reduce(np.abs(drift), (0, 2)), np.fmax.reduce(np.abs(middle / 2), 0)
+    ordered = np.sort(drift, 2).reshape(-1, columns, 2)  # NaN behind; np.nanmedian is slower
+    each, count = np.arange(frames * levels), np.isfinite(drift[..., 0]).sum(2).ravel()
+    middle = ordered[each, (count - 1) // 2] + ordered[each, count // 2]  # NaN without a column
+    medians = np.abs(middle / 2).reshape(frames, levels, 2)
+    return np.fmax.reduce(np.abs(drift), (0, 2)), np.fmax.reduce(medians, 0)
