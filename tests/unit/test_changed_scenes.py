@@ -120,6 +120,21 @@ def test_a_fixed_body_that_moves_does_work():
     assert abs(yt.energy_residual()) < 1e-9 * terms["imposed_velocity"]  # rounding
 
 
+def test_a_fixed_body_that_is_stopped_keeps_its_work():
+    """Each velocity that is set afterwards books its own energy only."""
+    ground = plate()
+    cube(0.1 - 1e-5)
+    start(steps=1000)
+    yt.set_velocity(O.bodies[ground], (0.5, 0, 0))
+    O.run(3000, True)
+    work = yt.energy()["imposed_velocity"]
+    for _ in range(2):
+        yt.set_velocity(O.bodies[ground], (0, 0, 0))
+        assert yt.energy()["imposed_velocity"] == pytest.approx(work, rel=1e-9)
+    O.run(3000, True)
+    assert abs(yt.energy_residual()) < 1e-9 * work
+
+
 @pytest.mark.parametrize("ratio", [0, 0.05])
 @pytest.mark.parametrize("dt, options", [(1e-4, {}), (1e-5, {"sweeps": 0})])
 def test_work_through_joints(dt, options, ratio):
