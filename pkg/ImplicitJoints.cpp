@@ -14,12 +14,14 @@ namespace {
 		const timber::JointSprings& springs = implicit.springs;
 		timber::JointModes& modes = *implicit.modes;
 		const timber::SolverBody &a = bodies[joint.bodyA], &b = bodies[joint.bodyB];
-		timber::JointState now { joint.intact, joint.stiffness, timber::pairInverseMass(a, b),
-			a.inverseInertia.trace() + b.inverseInertia.trace() };
+		timber::JointState now { joint.intact, joint.stiffness, { a.inverseMass, b.inverseMass },
+			{ a.inverseInertia.trace(), b.inverseInertia.trace() } };
 		const bool isExplicit = !joint.isDamped() && !joint.isStiff() && !modes.mayBeStiff(h);
 		if (isExplicit && modes.state.hasSame(now)) return;
 		now.relative = a.axes.transpose() * b.axes;
-		if (modes.state.fits(now, modes.largestTurn(h, joint.dampingAt(1)))) return;
+		now.opening = a.axes.transpose() * (b.position + b.axes * joint.centreB - a.position) - joint.centreA;
+		const double turn = modes.largestTurn(h, joint.dampingAt(1));
+		if (modes.state.fits(now, turn, modes.shiftOf(turn))) return;
 		timber::SpringGroup unbroken { {}, joint.stiffness, joint.normal };
 		for (size_t k = 0; k < springs.count; ++k)
 			if (springs.isIntact(k)) unbroken.anchors.push_back(springs.anchorA(k));

@@ -13,9 +13,11 @@ namespace serialization {
 		ar& make_nvp("twists", m.twists) & make_nvp("sensitivity", m.sensitivity);
 		ar& make_nvp("springs", m.state.springs) & make_nvp("normal", m.state.stiffness.normal)
 		        & make_nvp("shear", m.state.stiffness.shear);
-		ar& make_nvp("pairInverseMass", m.state.pairInverseMass)
-		        & make_nvp("inverseInertia", m.state.inverseInertia);
-		ar& make_nvp("relative", m.state.relative);
+		ar& make_nvp("inverseMassA", m.state.inverseMass[0]) & make_nvp("inverseMassB", m.state.inverseMass[1]);
+		ar& make_nvp("inverseInertiaA", m.state.inverseInertia[0])
+		        & make_nvp("inverseInertiaB", m.state.inverseInertia[1]);
+		ar& make_nvp("relative", m.state.relative) & make_nvp("opening", m.state.opening);
+		ar& make_nvp("shiftSensitivity", m.shiftSensitivity);
 	}
 	template <class Archive> void serialize(Archive& ar, timber::WallHistory& h, const unsigned int)
 	{

@@ -53,6 +53,19 @@ namespace {
 		return std::sqrt(squares);
 	}
 
+	/// The same for a shift of the centre of B by a unit length.
+	double shiftSensitivityOf(const Mat6& modes, const Mat6& response)
+	{
+		double squares = 0;
+		for (int axis = 0; axis < 3; ++axis) {
+			Mat6 shift = Mat6::Zero();
+			shift.topRightCorner<3, 3>() = crossMatrix(Vec3::Unit(axis));
+			const Mat6 shifted = shift * response;
+			squares += (modes.transpose() * (shifted + shifted.transpose()) * modes).squaredNorm();
+		}
+		return std::sqrt(squares);
+	}
+
 	/// J R of contact_solver.hpp of an impulse `linear` on B, with the torques onA, onB about the centres of mass.
 	[[gnu::always_inline]] inline PairVector rowOf(
 	        const Vec3& linear, const Vec3& onA, const Vec3& onB, const SolverBodies& bodies)
@@ -131,6 +144,7 @@ JointModes jointModes(const SolverBody& a, const SolverBody& b, const Mat3& axes
 	result.twists = L * solver.eigenvectors();
 	result.modes = L.transpose().triangularView<Eigen::Upper>().solve(solver.eigenvectors());
 	result.sensitivity = sensitivityOf(result.modes, responseB);
+	result.shiftSensitivity = shiftSensitivityOf(result.modes, responseB);
 	return result;
 }
 

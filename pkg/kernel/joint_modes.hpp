@@ -60,6 +60,7 @@
 #include "solver_body.hpp"
 #include "spring_step.hpp"
 #include <algorithm>
+#include <limits>
 #include <type_traits>
 
 namespace timber {
@@ -75,22 +76,25 @@ struct SpringGroup {
 struct JointState {
 	size_t springs = 0; ///< number of the unbroken springs; 0: not computed
 	JointStiffness stiffness { 0, 0 }; ///< of each
-	double pairInverseMass = 0; ///< [1/kg]
-	double inverseInertia = 0; ///< traces of both bodies [1/(kg m2)]
+	/// Of A and B: inverse masses [1/kg], traces of the inverse moments of inertia [1/(kg m2)]
+	Eigen::Array2d inverseMass = { 0, 0 }, inverseInertia = { 0, 0 };
 	Mat3 relative = Mat3::Identity(); ///< rotation matrix from the frame of B to that of A
+	Vec3 opening = Vec3::Zero(); ///< from the joint's centre in A to that in B, frame of A [m]
 
 	/// Whether springs and bodies are the same but for their orientations.
 	bool hasSame(const JointState& now) const
 	{
 		return springs == now.springs && stiffness.normal == now.stiffness.normal
-		        && stiffness.shear == now.stiffness.shear && pairInverseMass == now.pairInverseMass
-		        && std::abs(inverseInertia - now.inverseInertia) <= 1e-9 * inverseInertia;
+		        && stiffness.shear == now.stiffness.shear && (inverseMass == now.inverseMass).all()
+		        && ((inverseInertia - now.inverseInertia).abs() <= 1e-9 * inverseInertia).all();
 	}
-	/// Whether modes of this state serve for another one. largestTurn: of the bodies against each other [rad]
-	bool fits(const JointState& now, double largestTurn) const
+	/// Whether modes of this state serve for another one. largestTurn: of the bodies against each other [rad];
+	/// largestShift: of the centre of B against the joint [m]
+	bool fits(const JointState& now, double largestTurn, double largestShift) const
 	{
 		const double cosine = (relative.cwiseProduct(now.relative).sum() - 1) / 2;
-		return hasSame(now) && cosine > 1 - largestTurn * largestTurn / 2;
+		return hasSame(now) && cosine > 1 - largestTurn * largestTurn / 2
+		        && (opening - now.opening).squaredNorm() <= largestShift * largestShift;
 	}
 };
 
@@ -114,6 +118,7 @@ struct JointModes {
 	Mat6 twists = Mat6::Zero(); ///< Z^-T: w = Z^-T eta
 	Vec6 frequencies = Vec6::Zero(); ///< omega
 	double sensitivity = 0; ///< bound of |E| / phi, (4) [1/rad]
+	double shiftSensitivity = 0; ///< bound of |E| over a shift of the centre of B [1/m]
 
 	/// Whether explicit springs would not resolve a step of h [s]. Frequencies increase.
 	bool isStiff(double h) const { return h * frequencies[5] > stiffPhase; }
@@ -131,6 +136,12 @@ struct JointModes {
 	{
 		const double x = h / 2 * damping.of(frequencies[5]), share = isStiff(h) ? 1 : x / (1 + x);
 		return modeError / std::max(share * sensitivity, modeError / modeAngle);
+	}
+	/// Shift of the centre of B against the joint that changes the modes as much as such a rotation. [m]
+	double shiftOf(double turn) const
+	{
+		return shiftSensitivity > 0 ? turn * sensitivity / shiftSensitivity
+		                            : std::numeric_limits<double>::infinity();
 	}
 	/// Rates of a stretch by the modal velocities. end: where the spring's force acts, in the frame of A [m].
 	Mat36 rates(const Vec3& end) const

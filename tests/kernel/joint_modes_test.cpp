@@ -227,26 +227,35 @@ TEST(Oscillator, ExplicitWithoutSweeps)
 	EXPECT_LT((assembly.velocities() - expected).norm(), 1e-11 * expected.norm());
 }
 
-/// Modes depend on springs, masses, moments of inertia and the orientation of the bodies against each other.
+/// Modes depend on springs, masses, moments of inertia and the placement of the bodies against each other.
 TEST(JointModes, FitWhatTheyWereComputedFor)
 {
-	const JointState state { 4, { 100, 200 }, 0.7, 3, about(Vec3::UnitX(), 0.3).toRotationMatrix() };
-	EXPECT_TRUE(state.fits(state, modeAngle));
+	const JointState state { 4, { 100, 200 }, { 0.3, 0.4 }, { 1, 2 }, about(Vec3::UnitX(), 0.3).toRotationMatrix(),
+		{ 0, 0, 0.01 } };
+	const double shift = 0.02;
+	EXPECT_TRUE(state.fits(state, modeAngle, shift));
 	const auto changed = [&](auto change) {
 		JointState other = state;
 		change(other);
 		return other;
 	};
-	EXPECT_FALSE(state.fits(changed([](JointState& s) { s.springs = 3; }), modeAngle));
-	EXPECT_FALSE(state.fits(changed([](JointState& s) { s.stiffness.shear = 201; }), modeAngle));
-	EXPECT_FALSE(state.fits(changed([](JointState& s) { s.pairInverseMass = 0.8; }), modeAngle));
-	EXPECT_FALSE(state.fits(changed([](JointState& s) { s.inverseInertia = 3.1; }), modeAngle));
-	for (const double limit : { 1e-3, modeAngle })
-		for (const double share : { 0.9, 1.1 }) {
+	for (const JointState& other : {
+	             changed([](JointState& s) { s.springs = 3; }),
+	             changed([](JointState& s) { s.stiffness.shear = 201; }),
+	             changed([](JointState& s) { s.inverseMass.reverseInPlace(); }),
+	             changed([](JointState& s) { s.inverseInertia.reverseInPlace(); }),
+	     })
+		EXPECT_FALSE(state.fits(other, modeAngle, shift));
+	for (const double share : { 0.9, 1.1 }) {
+		for (const double limit : { 1e-3, modeAngle }) {
 			const Mat3 turned = about(Vec3::UnitZ(), share * limit) * state.relative;
-			EXPECT_EQ(state.fits(changed([&](JointState& s) { s.relative = turned; }), limit), share < 1);
+			EXPECT_EQ(state.fits(changed([&](JointState& s) { s.relative = turned; }), limit, shift),
+			        share < 1);
 		}
-	EXPECT_FALSE(JointState().fits(state, modeAngle));
+		EXPECT_EQ(state.fits(changed([&](JointState& s) { s.opening.x() = share * shift; }), modeAngle, shift),
+		        share < 1);
+	}
+	EXPECT_FALSE(JointState().fits(state, modeAngle, shift));
 }
 
 namespace {
