@@ -2,6 +2,7 @@
 #include <ContactLoop.hpp>
 #include <CollisionTrigger.hpp>
 #include <ContactPhysics.hpp>
+#include <Integrator.hpp>
 #include <bodies.hpp>
 #include <validation.hpp>
 #include <kernel/threads.hpp>
@@ -69,8 +70,20 @@ void ContactLoop::updateContact(TrackedInteraction& t, const CollisionTrigger& t
 	t.separation = phys.isIdle() ? geom.safeDisplacement - approach : 0;
 }
 
+/// Bodies moved by hand load the springs of their contacts.
+void ContactLoop::markMoved() const
+{
+	const std::vector<bool> moved = movedByHand(*scene);
+	if (moved.empty()) return;
+	for (const shared_ptr<Interaction>& I : *scene->interactions)
+		if (I->isReal() && (moved[I->getId1()] || moved[I->getId2()]))
+			if (auto* phys = dynamic_cast<ManifoldPhys*>(I->phys.get()))
+				phys->isMoved = !phys->records.empty();
+}
+
 void ContactLoop::action()
 {
+	markMoved();
 	const CollisionTrigger* trigger = findEngine<CollisionTrigger>(*scene);
 	if (!isCurrent(trigger)) return runInteractionLoop(trigger);
 	timber::forAll(int(tracked.size()), [&](int k) { updateContact(tracked[k], *trigger); });

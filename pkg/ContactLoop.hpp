@@ -31,6 +31,7 @@ class ContactLoop : public GlobalEngine {
 	bool areBothFixed(const TrackedInteraction&) const;
 	bool isCurrent(const CollisionTrigger*) const;
 	void runInteractionLoop(const CollisionTrigger*);
+	void markMoved() const;
 	void updateContact(TrackedInteraction&, const CollisionTrigger&) const;
 
 public:

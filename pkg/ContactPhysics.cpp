@@ -4,6 +4,7 @@
 #include <bodies.hpp>
 #include <validation.hpp>
 #include <set>
+#include <utility>
 
 namespace yade {
 
@@ -71,16 +72,25 @@ namespace {
 		        && (b2.bound->min.array() <= b1.bound->max.array()).all();
 	}
 
+	Real storedEnergy(const std::vector<timber::PointRecord>& records)
+	{
+		Real sum = 0;
+		for (const timber::PointRecord& r : records)
+			sum += r.normalStored + r.shearStored;
+		return sum;
+	}
+
 	/// Energy and largest overlap of the points of bodies that were placed in contact, without points that the
-	/// motion of a step explains: these store no energy yet.
-	void sumPlaced(ManifoldPhys& phys, bool placed)
+	/// motion of a step explains: these store no energy yet. before: stored before the step [J]
+	void sumPlaced(ManifoldPhys& phys, bool placed, Real before)
 	{
 		phys.placedEnergy = phys.placedOverlap = 0;
-		for (size_t k = 0; placed && k < phys.records.size(); ++k) {
-			if (!(phys.records[k].normalStored > 0)) continue;
-			phys.placedEnergy += phys.records[k].normalStored;
-			phys.placedOverlap = math::max(phys.placedOverlap, Real(phys.records[k].overlap));
-		}
+		if (!placed) return;
+		const Real change = storedEnergy(phys.records) - before + phys.releasedEnergy;
+		phys.placedEnergy = math::max(Real(0), change);
+		phys.releasedEnergy -= math::min(Real(0), change);
+		for (const timber::PointRecord& r : phys.records)
+			if (r.normalStored > 0) phys.placedOverlap = math::max(phys.placedOverlap, Real(r.overlap));
 	}
 
 	/// Elastic step of a pair. Returns false when the interaction ends: no contact points, bounding boxes apart.
@@ -99,11 +109,13 @@ namespace {
 		        ? timber::BearingStrength() // unlimited, as in the paper
 		        : timber::bearingStrength(phys.bearing, phys.bearingRadius, geom.contactPoints);
 		const timber::PairProperties pair = phys.properties();
-		const bool placed = phys.records.empty() && (wasPlaced(*scene, b1) || wasPlaced(*scene, b2));
+		const bool moved = std::exchange(phys.isMoved, false),
+		           placed = moved || (phys.records.empty() && (wasPlaced(*scene, b1) || wasPlaced(*scene, b2)));
+		const Real before = placed ? storedEnergy(phys.records) : 0;
 		phys.releasedEnergy = timber::elasticPair(law,
-		        { pair, kinematics(*b1.state), kinematics(*b2.state), scene->dt, form, placed },
+		        { pair, kinematics(*b1.state), kinematics(*b2.state), scene->dt, form, placed, moved },
 		        geom.contactPoints, phys.records);
-		sumPlaced(phys, placed);
+		sumPlaced(phys, placed, before);
 		phys.isActing = !std::all_of(phys.records.begin(), phys.records.end(),
 		        [](const timber::PointRecord& r) { return r.isIdle(); });
 		if (!phys.isActing) phys.normalForce = phys.shearForce = Vector3r::Zero();

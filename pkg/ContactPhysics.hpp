@@ -40,6 +40,7 @@ public:
 	Real placedEnergy = 0, placedOverlap = 0;
 	timber::BearingStrength strength; ///< of each point, in this step
 	bool isActing = true; ///< whether one of the points is not idle in this step
+	bool isMoved = false; ///< one of the bodies was moved by hand before this step, with points in contact
 	/// No contact points, and no energy released in the last step.
 	bool isIdle() const { return records.empty() && releasedEnergy == 0; }
 	timber::PairProperties properties() const

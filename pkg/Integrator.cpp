@@ -19,9 +19,7 @@ SteppedBody::SteppedBody(const Body* b)
 
 bool SteppedBody::isStill(const Body& b) const
 {
-	const State& s = *b.state;
-	return born >= 0 && born == b.iterBorn && position == s.pos && orientation.coeffs() == s.ori.coeffs()
-	        && mask == int(b.groupMask) && blockedDOFs == int(s.blockedDOFs);
+	return isSame(b) && hasPoseOf(b) && mask == int(b.groupMask) && blockedDOFs == int(b.state->blockedDOFs);
 }
 
 bool wasPlaced(const Scene& scene, const Body& b)
@@ -30,6 +28,19 @@ bool wasPlaced(const Scene& scene, const Body& b)
 	if (!integrator || integrator->stepped.empty()) return scene.iter == 0 || b.iterBorn >= scene.iter;
 	const size_t id = b.getId();
 	return id >= integrator->stepped.size() || !integrator->stepped[id].isStill(b);
+}
+
+std::vector<bool> movedByHand(const Scene& scene)
+{
+	std::vector<bool> moved;
+	const auto* integrator = findEngine<SymplecticIntegrator>(scene);
+	for (size_t id = 0; integrator && id < integrator->stepped.size(); ++id) {
+		const Body* b = bodyAt(scene, int(id));
+		if (!b || !integrator->stepped[id].isSame(*b) || integrator->stepped[id].hasPoseOf(*b)) continue;
+		moved.resize(scene.bodies->size());
+		moved[id] = true;
+	}
+	return moved;
 }
 
 void markPlaced(const Scene& scene, Body::id_t id)

@@ -15,6 +15,11 @@ struct SteppedBody {
 
 	SteppedBody() = default;
 	explicit SteppedBody(const Body* b);
+	bool isSame(const Body& b) const { return born >= 0 && born == b.iterBorn; }
+	bool hasPoseOf(const Body& b) const
+	{
+		return position == b.state->pos && orientation.coeffs() == b.state->ori.coeffs();
+	}
 	/// Whether a body is the same, in the same pose and group, and neither fixed nor freed since.
 	bool isStill(const Body&) const;
 	template <class Archive> void serialize(Archive& ar, const unsigned int)
@@ -29,6 +34,9 @@ struct SteppedBody {
 /// overlaps was not reached by motion. In the first step of an integrator all bodies of a new scene were placed, in a
 /// scene that runs only those that were appended.
 bool wasPlaced(const Scene&, const Body&);
+
+/// Whether each body, by id, was given another pose since the last step. Empty: none was.
+std::vector<bool> movedByHand(const Scene&);
 
 /// Contacts of a body that begin in the next step are those of a body that was placed.
 void markPlaced(const Scene&, Body::id_t);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <JointEngine.hpp>
+#include <Integrator.hpp>
 #include <validation.hpp>
 #include <kernel/threads.hpp>
 #include <set>
@@ -109,6 +110,17 @@ void JointEngine::breakReplaced()
 	for (size_t k = 0; k < math::min(computed, set->joints.size()); ++k)
 		for (const Body::id_t id : { set->joints[k].bodyA, set->joints[k].bodyB })
 			if (hasBody(id) && bodies[id].isOther) set->breakAll(set->joints[k]);
+}
+
+/// The states of stiff joints belong to the poses to which the solver has moved the bodies: joints of bodies moved by
+/// hand enter it anew.
+void JointEngine::softenMoved()
+{
+	const std::vector<bool> moved = movedByHand(*scene);
+	if (moved.empty()) return;
+	for (timber::JointEntry& joint : set->joints)
+		for (const Body::id_t id : { joint.bodyA, joint.bodyB })
+			if (hasBody(id) && moved[id]) joint.soften();
 }
 
 void JointEngine::checkJoints() const
@@ -259,6 +271,7 @@ void JointEngine::action()
 	}
 	collectBodies();
 	breakReplaced();
+	softenMoved();
 	computeForces();
 	breakAndSum();
 	sums.handOver(*scene);

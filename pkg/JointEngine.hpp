@@ -40,6 +40,7 @@ class JointEngine : public GlobalEngine {
 	bool hasBody(Body::id_t) const;
 	void collectBodies();
 	void breakReplaced();
+	void softenMoved();
 	void checkJoints() const;
 	void takeJoints();
 	timber::JointPlacement placement(const timber::JointEntry& joint) const

@@ -90,7 +90,11 @@ timber::SpringsState TimberJoint::takeState()
 {
 	const bool isSaved = !saved.broken.empty();
 	timber::SpringsState state = isSaved ? saved : set->state(entry());
-	if (!isSaved) state.modes = {}; // computed for other attributes
+	if (!isSaved) { // of other attributes
+		state.modes = {};
+		state.half.clear();
+		state.account = 0;
+	}
 	saved = {};
 	const auto take = [](auto& from, auto& to) {
 		if (!from.empty()) to = std::move(from);

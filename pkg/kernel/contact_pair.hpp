@@ -24,6 +24,8 @@ struct ElasticInput {
 	/// The pair is new and one of its bodies was placed as it is: new points have their whole overlap, not
 	/// initialOverlap(). Those whose approach in a step explains it begin an impact.
 	bool placedInContact = false;
+	/// One of the bodies was moved by hand: the points that go on have the energy of their springs. Their history is kept.
+	bool moved = false;
 };
 
 /// Elastic step of all points. Records follow the features; those of features no longer in contact are removed.

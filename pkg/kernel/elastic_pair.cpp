@@ -217,6 +217,9 @@ double elasticPair(const Law& law, const ElasticInput& input, const Points& poin
 	double released = 0;
 	if (haveSameFeatures(points, records)) stepSameFeatures(law, input, points, records);
 	else released = stepChangedFeatures(law, input, points, records);
+	if (input.moved)
+		for (PointRecord& r : records)
+			r.normalStored = r.energy;
 	rearmImpacts(input.form, records);
 	return released;
 }
