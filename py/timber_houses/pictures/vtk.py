@@ -36,7 +36,7 @@ def export(folder, frames, every=1):
     make_folder(folder)
     last = len(frames.time) - 1
     chosen = [(frames.time[k], k) for k in sorted({*range(0, last + 1, every), last})]
-    walls = {"sheets": (sheets(frames), chosen)} if frames.sheets.type else {}
+    walls = {"sheets": (sheets(frames), chosen)} if len(frames.sheets.type) else {}
     series = {"elements": (elements(frames), chosen), **walls, "joints": (joints(frames), chosen),
               "contacts": (contacts(frames), [(time, k) for k, time in enumerate(frames.contacts.time)])}
     return [write_series(folder, name, make, numbers) for name, (make, numbers) in series.items()]
