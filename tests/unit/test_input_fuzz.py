@@ -27,4 +27,9 @@ def test_the_undamaged_files_are_used(tmp_path):
 
 @pytest.mark.parametrize("examples, use", KINDS.values(), ids=KINDS)
 def test_damaged(tmp_path, examples, use):
-    few(given(examples)(lambda example: use(tmp_path, example)))()
+    @few
+    @given(examples)
+    def check(example):
+        use(tmp_path, example)
+
+    check()

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # runner: python
 """The player obeys keys, mouse and touch; its controls have names, and it uses no network."""
+from time import sleep
+
 import frames_sample
 import numpy as np
 import pytest
@@ -149,6 +151,13 @@ def place_of_curves(driver):
     return box["left"] + 0.8 * box["width"], box["top"] + 0.5 * box["height"]
 
 
+def has_stopped(driver):
+    """Whether the page has not scrolled for 0.3 s."""
+    place = ask(driver, "scrollY")
+    sleep(0.3)
+    return ask(driver, "scrollY") == place
+
+
 def test_a_scroll_that_begins_on_a_curve_keeps_the_time(still):
     """A tap and a sideways drag go to a time, a drag upwards scrolls the page."""
     still.execute_cdp_cmd("Emulation.setTouchEmulationEnabled", {"enabled": True})
@@ -158,6 +167,7 @@ def test_a_scroll_that_begins_on_a_curve_keeps_the_time(still):
     touch(still, (x, y), *((x, y - 10 * k) for k in range(1, 10)))
     wait(lambda: ask(still, "scrollY") != before)
     assert ask(still, "player.time") == 1.5
+    wait(lambda: has_stopped(still))  # a tap on a page that still scrolls only stops it
     x, y = place_of_curves(still)
     touch(still, (x, y))
     wait(lambda: ask(still, "player.time") > 2.5)
