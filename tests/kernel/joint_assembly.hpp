@@ -24,7 +24,8 @@ struct Joint {
 
 inline JointState stateOf(const Joint& j)
 {
-	return { size_t(std::count(j.broken.begin(), j.broken.end(), 0)), j.stiffness, 1, 1, Mat3::Identity() };
+	return { size_t(std::count(j.broken.begin(), j.broken.end(), 0)), j.stiffness, { 1, 1 }, { 1, 1 },
+		Mat3::Identity() };
 }
 
 /// Bodies and joints with linear springs: displacements and rotations x, six numbers for each body, leave the arms as

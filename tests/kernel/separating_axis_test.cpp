@@ -89,7 +89,7 @@ TEST(CoreGap, AllAxesOfRandomHulls)
 {
 	Random random(84);
 	int overlapping = 0;
-	for (int trial = 0; trial < 500; ++trial) {
+	for (int trial = 0; trial < 150; ++trial) {
 		const Placed pair = randomPair(random, uniform(random, 0, 1));
 		Vec3 axis;
 		if (const double gap = pair.gap(axis); gap < 0) {
@@ -97,7 +97,7 @@ TEST(CoreGap, AllAxesOfRandomHulls)
 			EXPECT_NEAR(gap, gapOfAllAxes(pair), rounding) << trial;
 		}
 	}
-	EXPECT_GT(overlapping, 200);
+	EXPECT_GT(overlapping, 60);
 }
 
 /// Edges and faces that are parallel but for small angles.
@@ -108,7 +108,7 @@ TEST(CoreGap, AllAxesOfNearlyAlignedBodies)
 		Polyhedron::fromVertices(boxVertices({ 3, 0.1, 0.1 })),
 		Polyhedron::fromVertices(hexagonalPrismVertices(0.5, 1)) };
 	int overlapping = 0;
-	for (int trial = 0; trial < 3000; ++trial) {
+	for (int trial = 0; trial < 200; ++trial) {
 		const auto shape = [&] { return shapes[int(uniform(random, 0, 3))]; };
 		const Quat quarters = about(Vec3::Unit(trial % 3), M_PI / 4 * int(uniform(random, 0, 8))),
 		           tilt = about(randomDirection(random), oneOf(random, 4) ? 0 : logUniform(random, 1e-14, 0.1));
@@ -120,7 +120,7 @@ TEST(CoreGap, AllAxesOfNearlyAlignedBodies)
 			EXPECT_NEAR(gap, gapOfAllAxes(pair), rounding) << trial;
 		}
 	}
-	EXPECT_GT(overlapping, 1000);
+	EXPECT_GT(overlapping, 80);
 }
 
 /// Overlapping bodies: no random direction gives a larger gap (a smaller overlap).

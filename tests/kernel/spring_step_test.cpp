@@ -93,7 +93,7 @@ struct Row {
 			for (size_t s = 0; s < points.size(); ++s)
 				if (!j.broken[s]) group.anchors.push_back(arm(s, 1));
 			if (group.anchors.empty()) continue;
-			const JointState state { group.anchors.size(), { k, k }, 1, 1, Mat3::Identity() };
+			const JointState state { group.anchors.size(), { k, k }, { 1, 1 }, { 1, 1 }, Mat3::Identity() };
 			modes[i] = jointModes(bodies[i], bodies[i + 1], Mat3::Identity(), group, state);
 			const size_t index = solver.addJoint<6>(int(i), int(i + 1));
 			ModalConstraint<6>& c = solver.prepareJoint<6>(index, modes[i], Mat3::Identity(), { ratio });
