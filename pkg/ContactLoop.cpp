@@ -70,10 +70,10 @@ void ContactLoop::updateContact(TrackedInteraction& t, const CollisionTrigger& t
 	t.separation = phys.isIdle() ? geom.safeDisplacement - approach : 0;
 }
 
-/// Bodies moved by hand load the springs of their contacts.
+/// Bodies moved by hand, or by an engine after the last ContactLoop, load the springs of their contacts.
 void ContactLoop::markMoved() const
 {
-	const std::vector<bool> moved = movedByHand(*scene);
+	const std::vector<bool> moved = movedByHand(*scene, true);
 	if (moved.empty()) return;
 	for (const shared_ptr<Interaction>& I : *scene->interactions)
 		if (I->isReal() && (moved[I->getId1()] || moved[I->getId2()]))

@@ -3,6 +3,7 @@
 #include <bodies.hpp>
 #include <kernel/rotation.hpp>
 #include <kernel/threads.hpp>
+#include <array>
 
 namespace yade {
 
@@ -30,13 +31,14 @@ bool wasPlaced(const Scene& scene, const Body& b)
 	return id >= integrator->stepped.size() || !integrator->stepped[id].isStill(b);
 }
 
-std::vector<bool> movedByHand(const Scene& scene)
+std::vector<bool> movedByHand(const Scene& scene, bool alsoWithin)
 {
 	std::vector<bool> moved;
 	const auto* integrator = findEngine<SymplecticIntegrator>(scene);
 	for (size_t id = 0; integrator && id < integrator->stepped.size(); ++id) {
 		const Body* b = bodyAt(scene, int(id));
-		if (!b || !integrator->stepped[id].isSame(*b) || integrator->stepped[id].hasPoseOf(*b)) continue;
+		const SteppedBody& before = integrator->stepped[id];
+		if (!b || !(before.isMoved(*b) || (alsoWithin && before.isSame(*b) && before.wasMoved))) continue;
 		moved.resize(scene.bodies->size());
 		moved[id] = true;
 	}
@@ -94,9 +96,11 @@ void SymplecticIntegrator::moveGroup(Body::id_t first)
 	State* free[timber::laneCount];
 	size_t count = 0;
 	const Body::id_t end = math::min(first + timber::laneCount, int(scene->bodies->size()));
+	std::array<bool, timber::laneCount> moved {};
 	for (Body::id_t id = first; id < end; ++id) {
 		const shared_ptr<Body>& b = (*scene->bodies)[id];
 		if (!b) continue;
+		moved[id - first] = stepped[id].isMoved(*b);
 		if (!isFree(*b->state)) {
 			moveFixed(*b->state);
 			continue;
@@ -106,8 +110,10 @@ void SymplecticIntegrator::moveGroup(Body::id_t first)
 	}
 	if (count == 1) rotate<double>(free, count);
 	if (count > 1) rotate<timber::Lanes>(free, count);
-	for (Body::id_t id = first; id < end; ++id)
+	for (Body::id_t id = first; id < end; ++id) {
 		stepped[id] = SteppedBody((*scene->bodies)[id].get());
+		stepped[id].wasMoved = moved[id - first];
+	}
 }
 
 void SymplecticIntegrator::action()

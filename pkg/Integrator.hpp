@@ -9,13 +9,16 @@ namespace yade {
 struct SteppedBody {
 	Vector3r position; ///< [m]
 	Quaternionr orientation;
-	long born; ///< step in which the body was appended; -1: there is no body, or its contacts begin anew
+	long born = -1; ///< step in which the body was appended; -1: there is no body, or its contacts begin anew
 	int mask; ///< of its group
 	int blockedDOFs;
+	bool wasMoved = false; ///< it had been given another pose before that step moved it
 
 	SteppedBody() = default;
 	explicit SteppedBody(const Body* b);
 	bool isSame(const Body& b) const { return born >= 0 && born == b.iterBorn; }
+	/// Whether the body was given another pose since the last step.
+	bool isMoved(const Body& b) const { return isSame(b) && !hasPoseOf(b); }
 	bool hasPoseOf(const Body& b) const
 	{
 		return position == b.state->pos && orientation.coeffs() == b.state->ori.coeffs();
@@ -26,7 +29,7 @@ struct SteppedBody {
 	{
 		ar& BOOST_SERIALIZATION_NVP(position) & BOOST_SERIALIZATION_NVP(orientation)
 		        & BOOST_SERIALIZATION_NVP(born) & BOOST_SERIALIZATION_NVP(mask)
-		        & BOOST_SERIALIZATION_NVP(blockedDOFs);
+		        & BOOST_SERIALIZATION_NVP(blockedDOFs) & BOOST_SERIALIZATION_NVP(wasMoved);
 	}
 };
 
@@ -35,8 +38,9 @@ struct SteppedBody {
 /// scene that runs only those that were appended.
 bool wasPlaced(const Scene&, const Body&);
 
-/// Whether each body, by id, was given another pose since the last step. Empty: none was.
-std::vector<bool> movedByHand(const Scene&);
+/// Whether each body, by id, was given another pose since the last step; alsoWithin: or before its motion in that step,
+/// maybe by an engine. Empty: none was.
+std::vector<bool> movedByHand(const Scene&, bool alsoWithin);
 
 /// Contacts of a body that begin in the next step are those of a body that was placed.
 void markPlaced(const Scene&, Body::id_t);

@@ -116,7 +116,7 @@ void JointEngine::breakReplaced()
 /// hand enter it anew.
 void JointEngine::softenMoved()
 {
-	const std::vector<bool> moved = movedByHand(*scene);
+	const std::vector<bool> moved = movedByHand(*scene, false);
 	if (moved.empty()) return;
 	for (timber::JointEntry& joint : set->joints)
 		for (const Body::id_t id : { joint.bodyA, joint.bodyB })

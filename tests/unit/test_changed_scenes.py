@@ -108,13 +108,18 @@ def test_an_error_of_the_first_step_is_never_lost():
 # --- energies ---------------------------------------------------------------------------------------------------------
 
 
-def test_a_fixed_body_that_moves_does_work():
-    """A plate under a cube accelerates it by friction."""
+def plate_that_moves():
+    """A plate under a cube, which it accelerates by friction: its id."""
     ground = plate()
     cube(0.1 - 1e-5)
     start(steps=1000)
     yt.set_velocity(O.bodies[ground], (0.5, 0, 0))
     O.run(3000, True)
+    return ground
+
+
+def test_a_fixed_body_that_moves_does_work():
+    plate_that_moves()
     terms = yt.energy()
     assert terms["imposed_velocity"] > 0.9 * (terms["friction"] + terms["kinetic"]) > 0.1
     assert abs(yt.energy_residual()) < 1e-9 * terms["imposed_velocity"]  # rounding
@@ -122,11 +127,7 @@ def test_a_fixed_body_that_moves_does_work():
 
 def test_a_fixed_body_that_is_stopped_keeps_its_work():
     """Each velocity that is set afterwards books its own energy only."""
-    ground = plate()
-    cube(0.1 - 1e-5)
-    start(steps=1000)
-    yt.set_velocity(O.bodies[ground], (0.5, 0, 0))
-    O.run(3000, True)
+    ground = plate_that_moves()
     work = yt.energy()["imposed_velocity"]
     for _ in range(2):
         yt.set_velocity(O.bodies[ground], (0, 0, 0))

@@ -3,6 +3,7 @@
 import math
 
 import pytest
+import yade.wrapper as yw
 import yade_timber as yt
 from yade import O
 from yade.minieigenHP import Quaternion, Vector3
@@ -69,6 +70,19 @@ def test_a_piston_moved_by_hand_pushes():
         O.bodies[piston].state.pos += Vector3(1e-6, 0, 0)
         O.step()
     assert 1.8e-3 < O.bodies[body].state.pos[0] < 2.3e-3  # the last push goes on for a while
+
+
+@pytest.mark.parametrize("place", ["ContactLoop", "ContactForces"])
+def test_a_floor_raised_by_an_engine_lifts_what_stands_on_it(place):
+    """By 40 mm in steps of 0.1 mm, before one of the engines of a step."""
+    plate, body = cube_at_rest()
+    chain = list(O.engines)
+    names = [type(engine).__name__ for engine in chain]
+    chain.insert(names.index(place), yw.StepDisplacer(ids=[plate], mov=(0, 0, 1e-4)))
+    O.engines = chain
+    O.run(400, True)
+    assert height(body) > 0.04 - 1e-3
+    assert height(body) < 0.04 + 0.2 * 0.2  # thrown up by 0.2 m/s for 0.2 s at most
 
 
 def hanging(k, **options):
